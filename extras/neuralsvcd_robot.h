@@ -532,8 +532,9 @@ NSVCDDEF nsvcd_result nsvcd_reparent(const nsvcd_checker *checker, const double 
 //
 // What setup assistants tell from random configurations is proven here, over all values of the
 // joints within their limits. Values are cut into boxes. In a box the two parts are apart if a
-// sweep along one of its joints is free, with how far the other joints can move a point as a
-// clearance. They meet everywhere in a box if a point of both stays inside of both.
+// plane is between them whatever the joints do; or if a sweep along one of its joints is free, with
+// how far the other joints can move a point as a clearance. They meet everywhere in a box if a
+// point of both stays inside of both.
 
 // Do two parts meet, or come within the clearance?
 typedef enum nsvcd_meeting {
@@ -556,7 +557,7 @@ typedef struct nsvcd_range_options {
   float clearance;
   // units for each proof of a sweep or a configuration; default NSVCD_DEFAULT_WORK
   size_t work;
-  // the most boxes that are looked into, up to NSVCD_MAX_BOXES; default 2,000
+  // the most boxes that are looked into, up to NSVCD_MAX_BOXES, which is the default
   size_t boxes;
   // seed of the random numbers
   uint64_t seed;
@@ -577,7 +578,9 @@ typedef struct nsvcd_range_answer {
   nsvcd_meeting meeting;
   // the reason if it is UNKNOWN. TOO_NEAR: somewhere they are too near each other to tell, or they
   // meet but no point was found that stays inside of both. WORK: boxes or units of work were not
-  // enough, or the search was stopped. OPEN: as nsvcd_why has it
+  // enough, or the search was stopped. OPEN: as nsvcd_why has it, or they meet wherever that was
+  // asked, and all components of one are open, so that no point is known to be inside of it: more
+  // work will not tell
   nsvcd_why why;
   // number of joints between the two parts, each leader counted once with those that mimic it; the
   // others do not matter
@@ -610,13 +613,14 @@ NSVCDDEF size_t nsvcd_pair_range_size(const nsvcd_checker *checker, nsvcd_body_p
 //   threads    each needs memory of its own; the checker may be shared
 //   errors     ARGUMENT, PAIR, CLEARANCE, COUNT (boxes), WORKSPACE; POSE, SCALE, as nsvcd_check
 //   source     branch and bound, by a Lipschitz bound; difference: along one joint the motion
-//              itself is proven
+//              itself is proven, and joints count by how they move points along a plane's normal
 //
 // Allowances and cones of the scene do not count.
 //
-// One joint between the parts takes one proof, two some ten to a thousand, as near as the parts
-// come. With more joints SOMETIMES is found soon where it is so, by configurations drawn at random
-// and by going down the slope of the distance.
+// One joint between the parts takes one proof, two some ten to a thousand boxes, as near as the
+// parts come. With more joints SOMETIMES is found soon where it is so, by configurations drawn at
+// random and by going down the slope of the distance. NEVER takes the longer the nearer the parts
+// come, and the more joints there are.
 NSVCDDEF nsvcd_result nsvcd_pair_range(const nsvcd_checker *checker, nsvcd_body_pair pair,
                                        const nsvcd_range_options *options, void *memory,
                                        size_t size, nsvcd_range_answer *answer);
@@ -1764,6 +1768,7 @@ static void *nsvcd__take(char *base, uint64_t *used, size_t rows, size_t row_siz
 //   reach            configurations that have a tool at a target
 //   spans            two parts, and how far the joints between them move a point
 //   meetings         configurations in which two parts meet, and in which they do not
+//   partings         does a plane part two parts in all of a box of values?
 //   ranges           do two parts meet never, always or sometimes?
 //   blends           from one state to another, within limits of speed and acceleration
 //   smooth           a path, timed, then smooth
@@ -5601,9 +5606,9 @@ static void nsvcd__put_probe(nsvcd__span *s, const nsvcd__probe *at) {
 // ---------------------------------------------------------------------------------- robot/meetings
 // In: two parts of a robot. Out: a configuration in which they meet, and one in which they do not.
 //
-// Configurations are drawn at random. From some of them the distance is followed down its slope until
-// the parts meet, or up until they do not. A joint at its limit stays there while the slope leads
-// beyond it.
+// Configurations are drawn at random. From some of them the distance is followed down its slope
+// until the parts meet, or up until they do not. A joint at its limit stays there while the slope
+// leads beyond it.
 
 // probes that are kept
 #define NSVCD__KEPT_PROBES 4
@@ -5844,8 +5849,8 @@ static nsvcd__d3 nsvcd__corner_of(const nsvcd__rider *rider, size_t corner) {
   return p;
 }
 
-// The least that points of a part are along a direction, in all of the box: least[n] if the plane is
-// fixed behind n joints, counted from the part.
+// The least that points of a part are along a direction, in all of the box: least[n] if the plane
+// is fixed behind n joints, counted from the part.
 static void nsvcd__least_along(const nsvcd__span *s, const nsvcd__links *at,
                                const nsvcd__rider *rider, size_t side, nsvcd__d3 along,
                                double *least) {
@@ -5882,8 +5887,8 @@ static nsvcd__parting nsvcd__parting_along(const nsvcd__span *s, const nsvcd__li
   return out;
 }
 
-// A plane that parts the two by more than the clearance in all of the box; or the best of those that
-// are tried. Their normals are the direction from middle to middle, those of the sides of both
+// A plane that parts the two by more than the clearance in all of the box; or the best of those
+// that are tried. Their normals are the direction from middle to middle, those of the sides of both
 // boxes, and those of the joints' axes, along which these move nothing.
 static nsvcd__parting nsvcd__best_parting(const nsvcd__span *s, const nsvcd__links *at,
                                           const nsvcd__rider *riders, double clearance) {
@@ -5927,26 +5932,27 @@ static void nsvcd__losses_of(const nsvcd__span *s, const nsvcd__links *at,
 // joints between them?
 //
 // Some configurations are tried first (robot/meetings.h). If the parts meet in some and not in
-// others, that is the answer. If they meet in none, boxes of values are proven to be free; if in all, to be such
-// that a point of one part stays inside of the other:
+// others, that is the answer. If they meet in none, boxes of values are proven to be free; if in
+// all, to be such that a point of one part stays inside of the other:
 //
-//   free   a sweep along one joint of the box, with all that the other joints can move a point as a
-//          clearance (robot/spans.h)
+//   free   a plane that parts the two (robot/partings.h); or a sweep along one joint of the box,
+//          with all that the other joints can move a point as a clearance (robot/spans.h)
 //   hit    a point inside of both parts rides on one of them. Along the same sweep, with the same
 //          clearance, it does not meet the surface of the other part: so it stays inside of it. Two
 //          solids that have a point in common meet: either their surfaces do, or a component of one
 //          is inside of the other
 //
-// A box that is neither is cut in two along the joint that moves points farthest.
+// A box that is neither is cut in two, along the joint that moves points farthest; or, where the
+// best plane is nearer to being enough than the sweep, that brings them nearest along its normal.
 
-// default
+// the default; and of a box, beside its questions
 #define NSVCD__RANGE_UNITS 4000000
+#define NSVCD__BOX_UNITS 10
 // boxes that are kept; and those that are left when the newest is taken first, so that they are not
 // too many
 #define NSVCD__KEPT_BOXES 4096
 #define NSVCD__QUEUED_BOXES 2048
 // boxes that are given up before the search is
-#define NSVCD__BOX_UNITS 10
 #define NSVCD__MOST_DROPPED 64
 // the first boxes that fail, and every so many later, have the slope followed
 #define NSVCD__FIRST_SLOPES 24
@@ -6045,7 +6051,7 @@ static void nsvcd__prove_free(nsvcd__ranging *r, const double *box) {
   if (travel > 0) {
     for (size_t k = 0; k < s->joints; k++) moved[k] = s->half[k] * s->arms[k];
     moved[along] *= NSVCD__SWEPT_SHARE;
-    // how often either bound is as much as there is room for
+    // by how much of the room that there is for it either bound is too much
     const double room =
         nsvcd__max((double)found.contact.gap - (double)r->options.clearance, 0);
     if ((parting.centre - parting.apart) * room < travel * (parting.centre - kept))

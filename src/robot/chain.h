@@ -19,6 +19,7 @@
 //   reach            configurations that have a tool at a target
 //   spans            two parts, and how far the joints between them move a point
 //   meetings         configurations in which two parts meet, and in which they do not
+//   partings         does a plane part two parts in all of a box of values?
 //   ranges           do two parts meet never, always or sometimes?
 //   blends           from one state to another, within limits of speed and acceleration
 //   smooth           a path, timed, then smooth

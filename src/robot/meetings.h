@@ -1,8 +1,8 @@
 // In: two parts of a robot. Out: a configuration in which they meet, and one in which they do not.
 //
-// Configurations are drawn at random. From some of them the distance is followed down its slope until
-// the parts meet, or up until they do not. A joint at its limit stays there while the slope leads
-// beyond it.
+// Configurations are drawn at random. From some of them the distance is followed down its slope
+// until the parts meet, or up until they do not. A joint at its limit stays there while the slope
+// leads beyond it.
 #pragma once
 #include "configurations.h"
 #include "spans.h"

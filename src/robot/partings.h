@@ -55,8 +55,8 @@ static nsvcd__d3 nsvcd__corner_of(const nsvcd__rider *rider, size_t corner) {
   return p;
 }
 
-// The least that points of a part are along a direction, in all of the box: least[n] if the plane is
-// fixed behind n joints, counted from the part.
+// The least that points of a part are along a direction, in all of the box: least[n] if the plane
+// is fixed behind n joints, counted from the part.
 static void nsvcd__least_along(const nsvcd__span *s, const nsvcd__links *at,
                                const nsvcd__rider *rider, size_t side, nsvcd__d3 along,
                                double *least) {
@@ -93,8 +93,8 @@ static nsvcd__parting nsvcd__parting_along(const nsvcd__span *s, const nsvcd__li
   return out;
 }
 
-// A plane that parts the two by more than the clearance in all of the box; or the best of those that
-// are tried. Their normals are the direction from middle to middle, those of the sides of both
+// A plane that parts the two by more than the clearance in all of the box; or the best of those
+// that are tried. Their normals are the direction from middle to middle, those of the sides of both
 // boxes, and those of the joints' axes, along which these move nothing.
 static nsvcd__parting nsvcd__best_parting(const nsvcd__span *s, const nsvcd__links *at,
                                           const nsvcd__rider *riders, double clearance) {

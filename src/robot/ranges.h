@@ -2,29 +2,30 @@
 // joints between them?
 //
 // Some configurations are tried first (robot/meetings.h). If the parts meet in some and not in
-// others, that is the answer. If they meet in none, boxes of values are proven to be free; if in all, to be such
-// that a point of one part stays inside of the other:
+// others, that is the answer. If they meet in none, boxes of values are proven to be free; if in
+// all, to be such that a point of one part stays inside of the other:
 //
-//   free   a sweep along one joint of the box, with all that the other joints can move a point as a
-//          clearance (robot/spans.h)
+//   free   a plane that parts the two (robot/partings.h); or a sweep along one joint of the box,
+//          with all that the other joints can move a point as a clearance (robot/spans.h)
 //   hit    a point inside of both parts rides on one of them. Along the same sweep, with the same
 //          clearance, it does not meet the surface of the other part: so it stays inside of it. Two
 //          solids that have a point in common meet: either their surfaces do, or a component of one
 //          is inside of the other
 //
-// A box that is neither is cut in two along the joint that moves points farthest.
+// A box that is neither is cut in two, along the joint that moves points farthest; or, where the
+// best plane is nearer to being enough than the sweep, that brings them nearest along its normal.
 #pragma once
 #include "meetings.h"
 #include "partings.h"
 
-// default
+// the default; and of a box, beside its questions
 #define NSVCD__RANGE_UNITS 4000000
+#define NSVCD__BOX_UNITS 10
 // boxes that are kept; and those that are left when the newest is taken first, so that they are not
 // too many
 #define NSVCD__KEPT_BOXES 4096
 #define NSVCD__QUEUED_BOXES 2048
 // boxes that are given up before the search is
-#define NSVCD__BOX_UNITS 10
 #define NSVCD__MOST_DROPPED 64
 // the first boxes that fail, and every so many later, have the slope followed
 #define NSVCD__FIRST_SLOPES 24
@@ -123,7 +124,7 @@ static void nsvcd__prove_free(nsvcd__ranging *r, const double *box) {
   if (travel > 0) {
     for (size_t k = 0; k < s->joints; k++) moved[k] = s->half[k] * s->arms[k];
     moved[along] *= NSVCD__SWEPT_SHARE;
-    // how often either bound is as much as there is room for
+    // by how much of the room that there is for it either bound is too much
     const double room =
         nsvcd__max((double)found.contact.gap - (double)r->options.clearance, 0);
     if ((parting.centre - parting.apart) * room < travel * (parting.centre - kept))
