@@ -5948,10 +5948,9 @@ static void nsvcd__losses_of(const nsvcd__span *s, const nsvcd__links *at,
 // the default; and of a box, beside its questions
 #define NSVCD__RANGE_UNITS 4000000
 #define NSVCD__BOX_UNITS 10
-// boxes that are kept; and those that are left when the newest is taken first, so that they are not
-// too many
+// boxes that are kept. While more than half of these are left, the newest is taken first, so that
+// they are not too many
 #define NSVCD__KEPT_BOXES 4096
-#define NSVCD__QUEUED_BOXES 2048
 // boxes that are given up before the search is
 #define NSVCD__MOST_DROPPED 64
 // the first boxes that fail, and every so many later, have the slope followed
@@ -6247,7 +6246,7 @@ static int nsvcd__search_boxes(nsvcd__ranging *r, int is_free) {
       r->answer.why = NSVCD_WHY_WORK;
       break;
     }
-    const int is_oldest = r->count <= NSVCD__QUEUED_BOXES;
+    const int is_oldest = r->count <= r->capacity / 2;
     memcpy(box, nsvcd__box_at(r, is_oldest ? 0 : r->count - 1), size * sizeof *box);
     r->first = (r->first + (size_t)is_oldest) % r->capacity;
     r->count--;
@@ -6284,7 +6283,8 @@ static void nsvcd__find_always(nsvcd__ranging *r) {
 static void nsvcd__find_range(nsvcd__ranging *r) {
   nsvcd_range_answer *a = &r->answer;
   nsvcd__try_draws(r);
-  if (!a->has_hit) nsvcd__try_slopes(r, NSVCD__SLOPES_DOWN, -1);
+  // with few joints boxes are quicker
+  if (!a->has_hit && r->span.joints > 2) nsvcd__try_slopes(r, NSVCD__SLOPES_DOWN, -1);
   if (!a->has_hit && nsvcd__search_boxes(r, 1)) a->meeting = NSVCD_MEETS_NEVER;
   if (a->has_hit && !a->has_free) nsvcd__find_always(r);
   if (a->has_free && a->has_hit) a->meeting = NSVCD_MEETS_SOMETIMES;

@@ -226,55 +226,97 @@ static void ranges_narrow(void) {
   }
 }
 
+// How far apart a plane has two parts at least, in a box of values, (2, joints between them); and how
+// far they are, of samples; NULL: not asked.
+static double parting_of(const robot *r, nsvcd_body_pair pair, const double *box, shapes_rng *rng,
+                         double *least) {
+  static nsvcd__span s;
+  nsvcd__links at;
+  nsvcd__span_begin(&r->scene, pair, &s);
+  const size_t size = nsvcd_checker_size(&s.scene);
+  void *memory = malloc(size);
+  CHECK_EQ(nsvcd_checker_open(&s.scene, memory, size, &s.checker), NSVCD_OK);
+  nsvcd__take_box(&s, box);
+  nsvcd__place_links(s.checker, s.at, &at);
+  const nsvcd__rider riders[2] = {nsvcd__rider_of(s.checker, &at, 0),
+                                  nsvcd__rider_of(s.checker, &at, 1)};
+  nsvcd__arms_between(&s, &at, riders);
+  const nsvcd__parting parting = nsvcd__best_parting(&s, &at, riders, 1e9);
+  if (least) *least = 10;
+  for (size_t n = 0; n < 300 && least && parting.apart > 0; n++) {
+    double q[NSVCD_MAX_JOINTS];
+    memcpy(q, s.at, sizeof q);
+    for (size_t k = 0; k < s.joints; k++) {
+      const double random = shapes_uniform(rng, 0, 1);
+      const double share = n % 2 ? random : random < 0.5;
+      q[s.path[k]] = s.low[k] + share * (s.high[k] - s.low[k]);
+    }
+    nsvcd__follow(&r->scene, 1, q);
+    *least = fmin(*least, robot_apart(r, &pair, q, 10));
+  }
+  free(memory);
+  return parting.apart - s.beyond;
+}
+
 // In all of a box of values two parts are as far apart as the plane that is said to part them makes
 // them.
 static void planes_part_no_less(void) {
   static robot r;
-  static nsvcd__span s;
   shapes_rng rng = {23};
   size_t told = 0;
   size_t near = 0;
   for (size_t trial = 0; trial < check_many(400); trial++) {
-    double box[2 * NSVCD_MAX_JOINTS];
-    nsvcd__links at;
+    double box[2 * NSVCD_MAX_JOINTS], least;
     robot_random_of(&r, &rng, 2 + (size_t)shapes_pick(&rng, 5));
     const nsvcd_body_pair pair = {0, (uint32_t)r.scene.joint_count - 1};
-    nsvcd__span_begin(&r.scene, pair, &s);
-    const size_t size = nsvcd_checker_size(&s.scene);
-    void *memory = malloc(size);
-    CHECK_EQ(nsvcd_checker_open(&s.scene, memory, size, &s.checker), NSVCD_OK);
+    size_t way[NSVCD_MAX_JOINTS];
+    const size_t joints =
+        nsvcd__path_between(&r.scene, r.parts[pair.a].link, r.parts[pair.b].link, way);
     const double wide = pow(10, shapes_uniform(&rng, -2, 0.2));
-    for (size_t k = 0; k < s.joints; k++) {
+    for (size_t k = 0; k < joints; k++) {
       const double middle = shapes_uniform(&rng, -1, 1);
       const double half = wide * shapes_uniform(&rng, 0, 1);
       box[k] = middle - half;
-      box[s.joints + k] = middle + half;
+      box[joints + k] = middle + half;
     }
-    nsvcd__take_box(&s, box);
-    nsvcd__place_links(s.checker, s.at, &at);
-    const nsvcd__rider riders[2] = {nsvcd__rider_of(s.checker, &at, 0),
-                                    nsvcd__rider_of(s.checker, &at, 1)};
-    nsvcd__arms_between(&s, &at, riders);
-    const nsvcd__parting parting = nsvcd__best_parting(&s, &at, riders, 1e9);
-    double least = 10;
-    for (size_t n = 0; n < 300 && parting.apart > 0; n++) {
-      double q[NSVCD_MAX_JOINTS];
-      memcpy(q, s.at, sizeof q);
-      for (size_t k = 0; k < s.joints; k++) {
-        const double random = shapes_uniform(&rng, 0, 1);
-        const double share = n % 2 ? random : random < 0.5;
-        q[s.path[k]] = s.low[k] + share * (s.high[k] - s.low[k]);
-      }
-      nsvcd__follow(&r.scene, 1, q);
-      least = fmin(least, robot_apart(&r, &pair, q, 10));
-    }
-    CHECK(!(parting.apart > 0) || least >= parting.apart - s.beyond);
-    told += parting.apart > 0;
-    near += parting.apart > 0.7 * least;
-    free(memory);
+    const double apart = parting_of(&r, pair, box, &rng, &least);
+    CHECK(!(apart > 0) || least >= apart);
+    told += apart > 0;
+    near += apart > 0.7 * least;
   }
   CHECK_GE(told, check_many(400) / 10);
   CHECK_GE(near, 5);
+}
+
+// An arm that is stretched away from a wall bends towards it: by (5 h^2) / 2 of its length if both of
+// its joints turn by h.
+static void planes_know_what_bends(void) {
+  static robot r;
+  const nsvcd_body_pair pair = {0, 1};
+  shapes_mesh wall;
+  memset(&wall, 0, sizeof wall);
+  shapes_box_at(&wall, -0.5, 0, 0, 1, 8, 1);
+  robot_bare(&r, NSVCD_JOINT_REVOLUTE, 2, 2, 1);
+  for (int j = 0; j < 2; j++) r.joints[j].axis[2] = 1;
+  r.joints[1].origin.position[0] = 1;
+  r.parts[0].body = body_of(&wall, NULL);
+  r.parts[1].body = robot_shapes()[0].body;
+  r.parts[1].scale = 0.01f;
+  r.parts[1].link = 2;
+  r.parts[1].pose.position[0] = 1;
+  r.parts[0].pose.position[0] = 1.4f;
+  robot_open(&r);
+  for (int n = 0; n < 4; n++) {
+    const double h = 0.05 * (n + 1);
+    const double box[4] = {-h, -h, h, h};
+    const double apart = parting_of(&r, pair, box, NULL, NULL);
+    // of the arm's end, a cube of 1 mm
+    const double truth = cos(h) + cos(2 * h) - 1.4;
+    CHECK(apart <= truth && apart > truth - 0.002 - 2 * h * h * h);
+  }
+  free(r.memory);
+  nsvcd_body_free(r.parts[0].body, NULL);
+  shapes_free(&wall);
 }
 
 // Rounded bodies reach beyond their triangles, and a body with a hole encloses nothing for certain.
@@ -283,19 +325,21 @@ static void ranges_know_bodies(void) {
   const nsvcd_body_pair pair = {0, 1};
   const float half[3] = {0.05f, 0.05f, 0.05f};
   shapes_mesh box;
-  robot_bare(&r, NSVCD_JOINT_PRISMATIC, 1, 2, 0.01);
-  r.joints[0].axis[0] = 1;
+  robot_bare(&r, NSVCD_JOINT_PRISMATIC, 1, 2, 300);
+  r.joints[0].axis[1] = 1;
   CHECK_EQ(nsvcd_encode_box(half, 0.02f, NULL, &r.parts[0].body), NSVCD_OK);
   r.parts[1].body = r.parts[0].body;
   r.parts[1].link = 1;
-  // their triangles are 0.02 m inside of them
+  // one slides past the other; their triangles are 0.02 m inside of them
   for (int n = 0; n < 2; n++) {
-    r.parts[1].pose.position[0] = n ? 0.111f : 0.109f;
+    r.parts[1].pose.position[0] = n ? 0.101f : 0.099f;
     robot_open(&r);
     CHECK_EQ(range_of(&r, pair, 0, 0).meeting, n ? NSVCD_MEETS_NEVER : NSVCD_MEETS_SOMETIMES);
     free(r.memory);
   }
   nsvcd_body_free(r.parts[0].body, NULL);
+  r.joints[0].low = -0.01;
+  r.joints[0].high = 0.01;
   memset(&box, 0, sizeof box);
   shapes_box_at(&box, 0, 0, 0, 0.1, 0.1, 0.1);
   for (int n = 0; n < 2; n++) {
@@ -369,6 +413,7 @@ void test_ranges(void) {
   RUN(ranges_see_a_hole);
   RUN(ranges_narrow);
   RUN(planes_part_no_less);
+  RUN(planes_know_what_bends);
   RUN(ranges_know_bodies);
   RUN(ranges_refuse);
 }

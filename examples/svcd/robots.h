@@ -12,7 +12,7 @@
 // that `pairs` takes, and the proof of a pair, at most
 #define PAIRS_SECONDS 10.0
 // units of its first search of each pair
-#define PAIRS_UNITS 200000
+#define PAIRS_UNITS 400000
 // about each mesh of a link
 #define LINK_BALLS 128
 
