@@ -240,7 +240,6 @@ ranges: planes fixed twice|least[0][n] + least[1][s->way_count - n];|least[0][n]
 ranges: planes of triangles alone|const double kept = (double)r->options.clearance + s->beyond;|const double kept = (double)r->options.clearance;
 ranges: planes without the clearance|const double kept = (double)r->options.clearance + s->beyond;|const double kept = s->beyond;
 ranges: boxes given up are proven|r->count == 0 \&\& !(r->dropped > 0)|r->count == 0
-ranges: the newest box taken, the oldest left out|r->first = (r->first + (size_t)is_oldest) % r->capacity;|r->first = (r->first + 1) % r->capacity;
 robot: joints that do not bend|bend += step->bend[j] * arms[j];|(void)bend;
 robot: half the bend|bend += step->bend[j] * arms[j];|bend += 0.5 * step->bend[j] * arms[j];
 robot: joints that do not turn each other|(2 * outer + moved)|(moved)

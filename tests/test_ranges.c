@@ -186,7 +186,7 @@ static void ranges_see_a_hole(void) {
     r.parts[1].body = robot_shapes()[0].body;
     r.parts[1].link = 2;
     robot_open(&r);
-    CHECK(range_of(&r, pair, 0, 3000).meeting != NSVCD_MEETS_ALWAYS);
+    CHECK(range_of(&r, pair, 0, 30).meeting != NSVCD_MEETS_ALWAYS);
     free(r.memory);
     // where the hole is not
     r.joints[0].high = x - 2 * half;
@@ -197,6 +197,34 @@ static void ranges_see_a_hole(void) {
     nsvcd_body_free(r.parts[0].body, NULL);
     shapes_free(&plate);
   }
+}
+
+// A cube that slides along an arm leaves a block where the arm points out of it, and is longest: in no
+// corner of both ranges, nor in their middle.
+static void ranges_see_the_end_of_a_block(void) {
+  static robot r;
+  const nsvcd_body_pair pair = {0, 1};
+  shapes_mesh block;
+  memset(&block, 0, sizeof block);
+  shapes_box_at(&block, 0, 0, 0, 2, 4, 1);
+  robot_bare(&r, NSVCD_JOINT_REVOLUTE, 2, 2, 0.5);
+  r.joints[0].axis[2] = 1;
+  r.joints[1].kind = NSVCD_JOINT_PRISMATIC;
+  r.joints[1].axis[0] = 1;
+  r.joints[1].low = 0.95;
+  r.parts[0].body = body_of(&block, NULL);
+  r.parts[1].body = robot_shapes()[0].body;
+  r.parts[1].link = 2;
+  for (int n = 0; n < 2; n++) {
+    r.joints[1].high = n ? 1.045 : 1.0505;
+    robot_open(&r);
+    const nsvcd_range_answer a = range_of(&r, pair, 0, 0);
+    if (n == 0) CHECK(a.meeting != NSVCD_MEETS_ALWAYS);
+    if (n == 1) CHECK_EQ(a.meeting, NSVCD_MEETS_ALWAYS);
+    free(r.memory);
+  }
+  nsvcd_body_free(r.parts[0].body, NULL);
+  shapes_free(&block);
 }
 
 // A box that a joint slides past another one, which it meets in a narrow range of its values.
@@ -357,6 +385,24 @@ static void ranges_know_bodies(void) {
   shapes_free(&box);
 }
 
+// Two boxes that slide past each other as near as the clearance, to the last bit: not proven.
+static void ranges_too_near_to_tell(void) {
+  static robot r;
+  const nsvcd_body_pair pair = {0, 1};
+  robot_bare(&r, NSVCD_JOINT_PRISMATIC, 1, 2, 0.01);
+  r.joints[0].axis[1] = 1;
+  for (int n = 0; n < 2; n++) r.parts[n].body = robot_shapes()[0].body;
+  r.parts[1].link = 1;
+  r.parts[1].pose.position[0] = 0.125f;
+  robot_open(&r);
+  const float gap = 0.125f - 2 * 0.05f;
+  const nsvcd_range_answer a = range_of(&r, pair, gap * (1 - 1e-7f), 0);
+  CHECK(a.meeting == NSVCD_MEETS_UNKNOWN || a.meeting == NSVCD_MEETS_SOMETIMES);
+  CHECK(a.meeting != NSVCD_MEETS_UNKNOWN || (a.why == NSVCD_WHY_TOO_NEAR && a.open > 0));
+  CHECK_EQ(range_of(&r, pair, 0.99f * gap, 0).meeting, NSVCD_MEETS_NEVER);
+  free(r.memory);
+}
+
 static int stop_at_once(void *user) {
   (void)user;
   return 1;
@@ -411,10 +457,12 @@ void test_ranges(void) {
   RUN(ranges_see_the_nearest);
   RUN(ranges_see_an_arm_straightened);
   RUN(ranges_see_a_hole);
+  RUN(ranges_see_the_end_of_a_block);
   RUN(ranges_narrow);
   RUN(planes_part_no_less);
   RUN(planes_know_what_bends);
   RUN(ranges_know_bodies);
+  RUN(ranges_too_near_to_tell);
   RUN(ranges_refuse);
 }
 CHECK_ALONE(test_ranges)
