@@ -6059,7 +6059,7 @@ static void nsvcd__prove_free(nsvcd__ranging *r, const double *box) {
     return;
   }
   // no more can be told of it
-  r->answer.why = found.why;
+  r->answer.why = found.why ? found.why : NSVCD_WHY_TOO_NEAR;
   nsvcd__drop_box(r, box);
 }
 
