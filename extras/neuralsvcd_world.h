@@ -1670,6 +1670,8 @@ typedef struct nsvcd__tally {
   size_t safe_by;
   float safe_time;
   nsvcd_pose safe;
+  // the contact that this body stops it at, if it has a normal
+  nsvcd_contact stop;
 } nsvcd__tally;
 
 static nsvcd__tally nsvcd__tally_of(const nsvcd__asker *q) {
@@ -1704,6 +1706,7 @@ static void nsvcd__tally_add(nsvcd__tally *t, size_t id, const nsvcd_answer *ans
   t->safe_by = id;
   t->safe_time = answer->safe.time;
   t->safe = answer->safe.a;
+  t->stop = answer->nearest;
 }
 
 // Asks about all bodies; HIT only until one is hit.
@@ -2089,8 +2092,11 @@ static nsvcd__thing nsvcd__leaving(const nsvcd__thing *thing, const nsvcd__hold 
 #define NSVCD__USUAL_CLEARANCE 0.005
 #define NSVCD__USUAL_ROUNDS 4
 #define NSVCD__USUAL_SLOPE 0.7
+// of the margin: how exact stops are
+#define NSVCD__STOPS_WITHIN 0.05
 // of the margin: a way in which no point goes farther is none for what rubs against something
-#define NSVCD__STILL 0.02
+#define NSVCD__STILL 0.05
+#define NSVCD__MOST_STOPS 4
 // radians: the most that a body turns in a way
 #define NSVCD__MOST_TURN 2.0
 
@@ -2114,6 +2120,9 @@ typedef struct nsvcd__slide {
   size_t met;
   // a character's: of its speed, that is left for the rest of the frame
   double pace;
+  // what has stopped it in this frame: contacts that a look may leave out, where many are
+  size_t stop_count;
+  nsvcd_world_contact stops[NSVCD__MOST_STOPS];
   // what pushed in rounds before, and then all that there is at the pose now
   size_t kept, contact_count;
   nsvcd_world_contact contacts[NSVCD_WORLD_CONTACTS];
@@ -2154,9 +2163,12 @@ static void nsvcd__slide_look(nsvcd__slide *s) {
   for (size_t k = 0; k < s->contact_count; k++)
     if (s->contacts[k].impulse > 0) s->contacts[kept++] = s->contacts[k];
   s->kept = kept < NSVCD_WORLD_CONTACTS / 2 ? kept : NSVCD_WORLD_CONTACTS / 2;
-  const size_t room = NSVCD_WORLD_CONTACTS - s->kept;
-  s->contact_count = s->kept + nsvcd__contacts_at(&s->ask, &s->pose, 1 - s->left, within, room,
-                                                  s->contacts + s->kept, room);
+  const size_t room = NSVCD_WORLD_CONTACTS - s->kept - s->stop_count;
+  memcpy(s->contacts + s->kept, s->stops, s->stop_count * sizeof *s->stops);
+  nsvcd_world_contact *found = s->contacts + s->kept + s->stop_count;
+  s->contact_count =
+      s->kept + s->stop_count +
+      nsvcd__contacts_at(&s->ask, &s->pose, 1 - s->left, within, room, found, room);
   s->ground = NULL;
   for (size_t k = s->kept; k < s->contact_count; k++) {
     const nsvcd_contact *c = &s->contacts[k].contact;
@@ -2222,6 +2234,13 @@ static double nsvcd__go(nsvcd__slide *s, const nsvcd_pose *to, int at_once) {
   if (s->ask.result) return 0;
   s->met = t.first;
   s->pose = t.safe;
+  const float *n = t.stop.normal;
+  if (t.safe_by && n[0] * n[0] + n[1] * n[1] + n[2] * n[2] > 0.5f && !at_once &&
+      s->stop_count < NSVCD__MOST_STOPS) {
+    s->stops[s->stop_count].body = t.safe_by;
+    s->stops[s->stop_count].impulse = 0;
+    s->stops[s->stop_count++].contact = t.stop;
+  }
   if (!at_once) s->left *= 1 - (double)t.safe_time;
   return (double)t.safe_time;
 }
@@ -2389,7 +2408,7 @@ static nsvcd_result nsvcd__slide_begin(const nsvcd_world *world, size_t id,
   s->up = nsvcd__d3_load(given->up);
   s->slope = given->slope > 0 ? (double)given->slope : NSVCD__USUAL_SLOPE;
   s->ask.question.clearance = (float)s->clearance;
-  s->ask.question.to = (float)(0.25 * s->margin);
+  s->ask.question.to = (float)(NSVCD__STOPS_WITHIN * s->margin);
   nsvcd__thing *thing = &s->thing;
   const nsvcd__dpose pose = nsvcd__dpose_of(&s->pose);
   const float *inertia = given->inertia;
