@@ -160,7 +160,8 @@ typedef struct nsvcd_slide_options {
   // metres: as high a step it climbs; and the least cosine between up and the normal of a ground
   // that it stands on, default 0.7
   float step, slope;
-  // how often in a frame it goes on after a contact; default 4
+  // how often in a frame it goes on after a contact; default 4. Before driven bodies four times as
+  // often
   size_t rounds;
   // units of each question, as question.work
   size_t work;
