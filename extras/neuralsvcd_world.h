@@ -2283,27 +2283,36 @@ static nsvcd__d3 nsvcd__flat_part(const nsvcd__slide *s, nsvcd__d3 a) {
   return nsvcd__d3_fma(-nsvcd__d3_dot(a, s->up), s->up, a);
 }
 
-// Whoever stands on a ground does not slide down it, and walks up it as fast as on the level; what
-// is too steep to stand on is a wall.
-static void nsvcd__stand(nsvcd__slide *s) {
-  if (!s->ground) return;
-  const nsvcd__d3 n = nsvcd__d3_load(s->ground->contact.normal);
-  const nsvcd__d3 own = nsvcd__d3_sub(s->thing.linear, s->ridden);
-  const int falls = nsvcd__d3_dot(own, s->up) < 0;
-  const double steep = nsvcd__d3_dot(n, s->up);
-  nsvcd__d3 walks = falls ? nsvcd__flat_part(s, own) : own;
-  const double into = -nsvcd__d3_dot(walks, n);
-  if (into > 0) walks = nsvcd__d3_fma(into / steep, s->up, walks);
-  // down to where it rests, if that is lower
-  const double least = falls ? s->holds[s->ground - s->contacts].least / steep : 0;
-  s->thing.linear = nsvcd__d3_add(nsvcd__d3_fma(least, s->up, walks), s->ridden);
+// What is too steep to stand on is a wall. For whoever stands it is upright; who is in the air slides
+// down it, but does not rise by walking into it.
+static void nsvcd__meet_walls(nsvcd__slide *s) {
   for (size_t k = s->kept; k < s->contact_count; k++) {
     nsvcd__hold *h = &s->holds[k];
-    const nsvcd__d3 flat = nsvcd__flat_part(s, h->normal);
-    const double steep = nsvcd__d3_norm(flat);
     const double rise = nsvcd__d3_dot(h->normal, s->up);
-    if (rise > 0 && rise < s->slope) h->normal = nsvcd__d3_scale(flat, 1 / steep);
+    if (!(rise > 0) || rise >= s->slope) continue;
+    const nsvcd__d3 flat = nsvcd__flat_part(s, h->normal);
+    const nsvcd__d3 away = nsvcd__d3_scale(flat, 1 / nsvcd__d3_norm(flat));
+    const double into = nsvcd__d3_dot(nsvcd__d3_sub(h->speed, s->thing.linear), away);
+    if (s->ground) h->normal = away;
+    if (!s->ground && into > 0) s->thing.linear = nsvcd__d3_fma(into, away, s->thing.linear);
   }
+}
+
+// Whoever stands on a ground does not slide down it, and walks up it as fast as on the level.
+static void nsvcd__stand(nsvcd__slide *s) {
+  if (s->ground) {
+    const nsvcd__d3 n = nsvcd__d3_load(s->ground->contact.normal);
+    const nsvcd__d3 own = nsvcd__d3_sub(s->thing.linear, s->ridden);
+    const int falls = nsvcd__d3_dot(own, s->up) < 0;
+    const double steep = nsvcd__d3_dot(n, s->up);
+    nsvcd__d3 walks = falls ? nsvcd__flat_part(s, own) : own;
+    const double into = -nsvcd__d3_dot(walks, n);
+    if (into > 0) walks = nsvcd__d3_fma(into / steep, s->up, walks);
+    // down to where it rests, if that is lower
+    const double least = falls ? s->holds[s->ground - s->contacts].least / steep : 0;
+    s->thing.linear = nsvcd__d3_add(nsvcd__d3_fma(least, s->up, walks), s->ridden);
+  }
+  nsvcd__meet_walls(s);
 }
 
 // Onto a step: up, along, and down again. What has been gone of the way is not gone again. Returns
@@ -2324,6 +2333,7 @@ static int nsvcd__climb(nsvcd__slide *s) {
     return 1;
   }
   s->pose = start;
+  if (is_higher) nsvcd__slide_look(s);
   return 0;
 }
 
@@ -2415,11 +2425,15 @@ static nsvcd_result nsvcd__slide_begin(const nsvcd_world *world, size_t id,
   return NSVCD_OK;
 }
 
-// Does the body, as it is, need no way at all in this frame?
-static int nsvcd__is_still(nsvcd__slide *s) {
-  const int rubs = s->thing.friction > 0 && s->contact_count > s->kept;
+// Does the body, as it is, need no way at all in this frame? If it touches something, a way that
+// floats do not show is none.
+static int nsvcd__is_still(nsvcd__slide *s, const nsvcd_pose *to) {
+  const int touches = s->contact_count > s->kept;
+  const int rubs = s->thing.friction > 0 && touches;
   const double most = rubs ? NSVCD__STILL * s->margin : NSVCD__BOX_ROUNDING * s->margin;
-  return nsvcd__travel_left(s) <= most && !nsvcd__is_driven_near(s);
+  const int is_short =
+      nsvcd__travel_left(s) <= most || (touches && !memcmp(to, &s->pose, sizeof *to));
+  return is_short && !nsvcd__is_driven_near(s);
 }
 
 // Does it rest as it did in the frame before: is it told the same, and has nothing moved that it
@@ -2462,13 +2476,13 @@ static int nsvcd__slide_round(nsvcd__slide *s, int is_first, int *rests) {
   const double turn = nsvcd__d3_norm(thing->angular) * s->left * s->seconds;
   if (turn > NSVCD__MOST_TURN)
     thing->angular = nsvcd__d3_scale(thing->angular, NSVCD__MOST_TURN / turn);
-  if (nsvcd__is_still(s)) {
+  const nsvcd_pose to = nsvcd__aim(s, s->left * s->seconds);
+  if (nsvcd__is_still(s, &to)) {
     thing->linear = thing->angular = nsvcd__d3_of(0, 0, 0);
     s->left = 0;
     *rests = is_first;
     return 0;
   }
-  const nsvcd_pose to = nsvcd__aim(s, s->left * s->seconds);
   const double gone = nsvcd__go(s, &to, 0);
   if (s->ask.result || gone >= 1) return 0;
   if (gone > 0 && !nsvcd__met_driven(s)) return 1;
