@@ -1625,7 +1625,8 @@ static nsvcd_result nsvcd__asker_begin(const nsvcd_world *world,
   if (asked->self != NSVCD_NOBODY && !self) return NSVCD_ERROR_INDEX;
   if (given->b.body || given->b.poses || (!self && !given->a.body))
     return NSVCD_ERROR_ARGUMENT;
-  if (given->method == NSVCD_METHOD_NETWORK) return NSVCD_ERROR_METHOD;
+  if (given->method != NSVCD_METHOD_DEFAULT && given->method != NSVCD_METHOD_PROOF)
+    return NSVCD_ERROR_METHOD;
   q->world = world;
   q->question = *given;
   q->question.method = NSVCD_METHOD_PROOF;
@@ -2517,6 +2518,8 @@ NSVCDDEF nsvcd_result nsvcd_world_slide(nsvcd_world *world, size_t id,
   nsvcd_slide_answer out;
   if (!world || !velocity || !answer) return NSVCD_ERROR_ARGUMENT;
   const nsvcd_slide_options *given = options ? options : &usual;
+  const uint32_t changes = world->changes;
+  if (changes & 1) return NSVCD_ERROR_WORLD;
   nsvcd_result result =
       nsvcd__slide_begin(world, id, given, seconds, workspace, workspace_size, velocity, &s);
   if (result) return result;
@@ -2555,6 +2558,7 @@ NSVCDDEF nsvcd_result nsvcd_world_slide(nsvcd_world *world, size_t id,
     if (stood && !s.ground && given->step > 0 && rises <= 0) nsvcd__step_down(&s);
   }
   if (s.ask.result) return s.ask.result;
+  if (changes != world->changes) return NSVCD_ERROR_WORLD;
   if (!out.rests) result = nsvcd_world_move(world, id, &s.pose);
   if (result) return result;
   out.clock = world->clock;

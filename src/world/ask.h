@@ -94,7 +94,8 @@ static nsvcd_result nsvcd__asker_begin(const nsvcd_world *world,
   if (asked->self != NSVCD_NOBODY && !self) return NSVCD_ERROR_INDEX;
   if (given->b.body || given->b.poses || (!self && !given->a.body))
     return NSVCD_ERROR_ARGUMENT;
-  if (given->method == NSVCD_METHOD_NETWORK) return NSVCD_ERROR_METHOD;
+  if (given->method != NSVCD_METHOD_DEFAULT && given->method != NSVCD_METHOD_PROOF)
+    return NSVCD_ERROR_METHOD;
   q->world = world;
   q->question = *given;
   q->question.method = NSVCD_METHOD_PROOF;
