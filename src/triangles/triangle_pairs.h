@@ -15,11 +15,6 @@ static NSVCD__NOINLINE nsvcd__d3 nsvcd__face_direction(const nsvcd__d3 *t) {
   return nsvcd__d3_scale(n, length > 1e-9 * longest ? 1 / length : 0);
 }
 
-static void nsvcd__pose_triangle(const nsvcd__dtransform *at, const nsvcd__d3 *corners,
-                                 nsvcd__d3 *out) {
-  for (size_t k = 0; k < 3; k++) out[k] = nsvcd__d3_transform(at, corners[k]);
-}
-
 // Two triangles, one of each body, in their frames: the caller's own, of which entries may be
 // pieces. A plane that separates a triangle separates its pieces; what meets a triangle meets the
 // mesh.
@@ -51,17 +46,24 @@ static void nsvcd__pair_arm(const nsvcd__arc *arc, nsvcd__triangle_pair *pair) {
   pair->from_axis = nsvcd__min(pair->from_axis, pair->from_origin);
 }
 
-static nsvcd__triangle_pair nsvcd__pair_of(const nsvcd__proof *p, size_t i, size_t j, size_t a,
-                                           size_t b) {
+// Of bodies at rest.
+static nsvcd__triangle_pair nsvcd__still_pair_of(const nsvcd__proof *p, size_t i, size_t j,
+                                                 size_t a, size_t b) {
   nsvcd__triangle_pair pair = {i, j, a, b, {{0, 0, 0}}, {{0, 0, 0}}, 0, 0, 0, 0, 0, 0};
   nsvcd__patch_triangle(&p->moving, i, a, pair.moving);
   nsvcd__patch_triangle(&p->fixed, j, b, pair.fixed);
-  nsvcd__pair_arm(&p->arcs.arc, &pair);
-  pair.speed = p->arcs.arc.speed + p->arcs.arc.turn * p->arcs.arc.scale * pair.from_axis;
   pair.rounding =
       NSVCD__SAME_POSITION * ((double)p->given.lengths + nsvcd__d3_norm(p->arcs.arc.from));
-  pair.margin = pair.rounding + nsvcd__off_meshes(p);
-  pair.margin += NSVCD__SAME_POSITION * nsvcd__d3_norm(p->arcs.arc.moved);
+  return pair;
+}
+
+static nsvcd__triangle_pair nsvcd__pair_of(const nsvcd__proof *p, size_t i, size_t j, size_t a,
+                                           size_t b) {
+  nsvcd__triangle_pair pair = nsvcd__still_pair_of(p, i, j, a, b);
+  nsvcd__pair_arm(&p->arcs.arc, &pair);
+  pair.speed = p->arcs.arc.speed + p->arcs.arc.turn * p->arcs.arc.scale * pair.from_axis;
+  const double moved = NSVCD__SAME_POSITION * nsvcd__d3_norm(p->arcs.arc.moved);
+  pair.margin = pair.rounding + nsvcd__off_meshes(p) + moved;
   pair.close = pair.margin + NSVCD__TOO_NEAR * (double)p->given.lengths + p->given.tolerance;
   return pair;
 }
