@@ -15,8 +15,8 @@ void test_slide(void);
 #define FRAME (1.0f / 60)
 #define NEAR 0.0005f  // the clearance and the margin of most bodies
 #define REST (2 * (double)NEAR)
-// It is set down at the clearance and the margin, and left there down to half of the margin.
-#define CHECK_RESTS(gap) CHECK_NEAR(gap, 1.75 * (double)NEAR, 0.25 * (double)NEAR + 5e-5)
+// It is set down at the clearance and the margin, and left there down to a quarter of the margin.
+#define CHECK_RESTS(gap) CHECK_NEAR(gap, 1.625 * (double)NEAR, 0.375 * (double)NEAR + 2e-5)
 static const float gravity = 9.81f / 60;
 
 // A body that is moved, and what has become of it.
@@ -547,6 +547,8 @@ static void between_two_movers(void) {
   for (int k = 0; k < 3; k++) {
     const size_t id = add_cube(&s, 0, 0.8 * (k - 1), 0.2512);
     a[k] = k == 1 ? character_of(&s, id, 0.1f) : prop_of(&s, id, 0);
+    // edges along faces at just the clearance: without a limit some questions take a million units
+    a[k].options.work = 10000;
   }
   for (int f = 0; f < 120; f++) {
     frame(&a[0], 0, 1);
