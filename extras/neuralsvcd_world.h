@@ -113,8 +113,8 @@ typedef struct nsvcd_world_answer {
   size_t body;
   // it is free of all bodies before `low`, and in contact with one at `high`
   nsvcd_range time;
-  // FIRST: where the mover may go. This pose, as it is in floats, and the way to it are proven to be
-  // free of all bodies. It is the start if that is not free
+  // FIRST: where the mover may go. This pose, as it is in floats, and the way to it are proven to
+  // be free of all bodies. It is the start if that is not free
   float safe_time;
   nsvcd_pose safe;
   // with a slop: how the mover was pushed out, of all that it touched at once
@@ -142,8 +142,8 @@ NSVCDDEF nsvcd_result nsvcd_world_begin(void *memory, size_t size, size_t most,
 //   id          of add: not NULL; set to the body's id, from 1 on, or left as it was on failure.
 //               Ids of removed bodies are used again
 //   threads     one at a time, and none may ask: what is caught of that is NSVCD_ERROR_WORLD
-//   errors      ARGUMENT, BODY, VERSION, TRIANGLES, POSE, QUATERNION, SCALE, PIVOT, COUNT (the world
-//               has room for no more bodies), INDEX (`id` is no body's), WORLD
+//   errors      ARGUMENT, BODY, VERSION, TRIANGLES, POSE, QUATERNION, SCALE, PIVOT, COUNT (there
+//               is no room for more bodies), INDEX (`id` is no body's), WORLD
 NSVCDDEF nsvcd_result nsvcd_world_add(nsvcd_world *world, const nsvcd_world_body *body,
                                       size_t *id);
 NSVCDDEF nsvcd_result nsvcd_world_move(nsvcd_world *world, size_t id, const nsvcd_pose *pose);
@@ -182,7 +182,8 @@ NSVCDDEF nsvcd_result nsvcd_world_list(const nsvcd_world *world,
                                        size_t workspace_size, size_t *ids, size_t most,
                                        size_t *count);
 
-// Lists the pairs of bodies whose boxes, over this frame, come within a distance: who may meet whom.
+// Lists the pairs of bodies whose boxes, over this frame, come within a distance: who may meet
+// whom.
 //   pairs      (most)
 //   count      not NULL; how many there are, which may be more than `most`
 //   errors     ARGUMENT, DISTANCE (`distance`), WORLD
@@ -1534,8 +1535,8 @@ NSVCDDEF nsvcd_result nsvcd_world_pairs(const nsvcd_world *world, float distance
 // In: a question about a mover and all that it comes near. Out: one answer.
 //
 // Each body that is near is asked about by itself. The earliest of their times is the answer's, and
-// up to there all of them are free. The pose at that time, as it is in floats, may be off the way by
-// a few units of their last place: so it is asked about once more, of the others.
+// up to there all of them are free. The pose at that time, as it is in floats, may be off the way
+// by a few units of their last place: so it is asked about once more, of the others.
 //
 // With a slop each body's answer has a push-out of its own. One that is as long along each of these
 // as that one is deep satisfies all, and nearly the shortest is found by projections (Agmon 1954).
@@ -1770,6 +1771,14 @@ static nsvcd__d3 nsvcd__push_out_of_all(const nsvcd__asker *asked) {
 
 // ---- where the mover may go
 
+// A pose displaced, as it is in floats.
+static nsvcd_pose nsvcd__displaced(const nsvcd_pose *pose, nsvcd__d3 by) {
+  nsvcd_pose out = *pose;
+  const nsvcd__d3 at = nsvcd__d3_add(nsvcd__d3_load(pose->position), by);
+  nsvcd__f3_store(nsvcd__f3_round(at), out.position);
+  return out;
+}
+
 // The pose of a way at a time in [0,1].
 static nsvcd_pose nsvcd__pose_on_way(const nsvcd_mover *way, const nsvcd__d3 pivot, double t) {
   const double all = (double)(way->count - 1);
@@ -1864,8 +1873,8 @@ static size_t nsvcd__contacts_at(nsvcd__asker *asked, const nsvcd_pose *pose, do
 // poses that are displaced by a push-out, at most
 #define NSVCD__DISPLACED 64
 
-static void nsvcd__world_answer(nsvcd__asker *q, const nsvcd__tally *t, int each,
-                                nsvcd_world_answer *out) {
+static void nsvcd__tell_all(nsvcd__asker *q, const nsvcd__tally *t, int each,
+                            nsvcd_world_answer *out) {
   const nsvcd_question *asked = &q->question;
   const double usual = (double)NSVCD_DEFAULT_TO * q->shape.reach;
   const double to = asked->to > 0 ? (double)asked->to : usual;
@@ -1904,11 +1913,8 @@ NSVCDDEF nsvcd_result nsvcd_world_sweep(const nsvcd_world *world,
     const size_t count = q.question.a.count;
     if (count > NSVCD__DISPLACED) return NSVCD_ERROR_POSES;
     const nsvcd__d3 by = nsvcd__push_out_of_all(&q);
-    for (size_t k = 0; k < count; k++) {
-      displaced[k] = q.question.a.poses[k];
-      const nsvcd__d3 at = nsvcd__d3_add(nsvcd__d3_load(displaced[k].position), by);
-      nsvcd__f3_store(nsvcd__f3_round(at), displaced[k].position);
-    }
+    for (size_t k = 0; k < count; k++)
+      displaced[k] = nsvcd__displaced(&q.question.a.poses[k], by);
     nsvcd__f3_store(nsvcd__f3_round(by), out.push_out);
     out.depth = (float)nsvcd__d3_norm(by);
     q.question.slop = 0;
@@ -1916,7 +1922,7 @@ NSVCDDEF nsvcd_result nsvcd_world_sweep(const nsvcd_world *world,
   }
   nsvcd__tally t = nsvcd__ask_all(&q);
   if (q.question.ask == NSVCD_ASK_FIRST && t.first) nsvcd__make_safe(&q, &t);
-  nsvcd__world_answer(&q, &t, manifold, &out);
+  nsvcd__tell_all(&q, &t, manifold, &out);
   if ((changes & 1) || changes != world->changes) return NSVCD_ERROR_WORLD;
   if (q.result) return q.result;
   *answer = out;
@@ -1954,11 +1960,11 @@ NSVCDDEF nsvcd_result nsvcd_world_list(const nsvcd_world *world,
 // ----------------------------------------------------------------------------------- world/respond
 // In: a body's speed and the contacts that it has. Out: its speed without what points into them.
 //
-// Sequential impulses (Catto, Iterative dynamics with temporal coherence, 2006), of one body against
-// others that rest or are driven: round after round each contact takes the impulse that its own
-// speed asks for, in sum never a pull, and friction up to its share of that. For a body that does
-// not turn and has no friction the limit is the speed nearest to the given one that points into no
-// contact.
+// Sequential impulses (Catto, Iterative dynamics with temporal coherence, 2006), of one body
+// against others that rest or are driven: round after round each contact takes the impulse that its
+// own speed asks for, in sum never a pull, and friction up to its share of that. For a body that
+// does not turn and has no friction the limit is the speed nearest to the given one that points
+// into no contact.
 //   A contact that is farther than where the body comes to rest may be approached, as fast as leads
 // there in this frame; one that is nearer is left, by a fifth of what is missing in a frame.
 
@@ -2144,8 +2150,8 @@ static nsvcd__d3 nsvcd__pivot_at(const nsvcd__slide *s) {
   return nsvcd__pivot_of(&s->pose, s->ask.shape.pivot);
 }
 
-// How fast a driven body moves a point that is there now, and goes with it, on average over what is left
-// of the frame.
+// How fast a driven body moves a point that is there now, and goes with it, on average over what is
+// left of the frame.
 static nsvcd__d3 nsvcd__driven_speed(const nsvcd__slide *s, size_t id, nsvcd__d3 point) {
   const nsvcd__resident *r = &s->ask.world->residents[id];
   if (!r->is_driven || !(s->left > 0)) return nsvcd__d3_of(0, 0, 0);
@@ -2254,26 +2260,21 @@ static double nsvcd__go(nsvcd__slide *s, const nsvcd_pose *to, int at_once) {
 
 // At once, straight: how far, as a fraction.
 static double nsvcd__go_by(nsvcd__slide *s, nsvcd__d3 by) {
-  nsvcd_pose to = s->pose;
-  const nsvcd__d3 at = nsvcd__d3_add(nsvcd__d3_load(to.position), by);
-  nsvcd__f3_store(nsvcd__f3_round(at), to.position);
+  const nsvcd_pose to = nsvcd__displaced(&s->pose, by);
   return nsvcd__go(s, &to, 1);
 }
 
-// The body cannot go on: it may be within the clearance of something, or a driven body may be about
-// to come there. It is pushed out, to where it rests or else as far as it has to be. Returns whether
-// it was.
+// The body cannot go on: something is within its clearance, or about to come there. It is pushed
+// out, to where it rests or else as far as it has to be. Returns whether it was.
 static int nsvcd__push_off(nsvcd__slide *s) {
   nsvcd__asker q = s->ask;
   q.since = 1 - s->left;
   q.question.a.poses = &s->pose;
   for (int k = 0; k < 2; k++) {
-    nsvcd_pose to = s->pose;
     q.question.clearance = (float)(s->clearance + (k ? 0 : 0.75 * s->margin));
     q.question.slop = 2 * q.question.clearance;
     const nsvcd__d3 by = nsvcd__push_out_of_all(&q);
-    const nsvcd__d3 at = nsvcd__d3_add(nsvcd__d3_load(to.position), by);
-    nsvcd__f3_store(nsvcd__f3_round(at), to.position);
+    const nsvcd_pose to = nsvcd__displaced(&s->pose, by);
     if (!(nsvcd__d3_dot(by, by) > 0) || !nsvcd__may_be_at(&s->ask, &to, q.since, 0)) continue;
     s->pose = to;
     return 1;
@@ -2308,8 +2309,8 @@ static nsvcd__d3 nsvcd__flat_part(const nsvcd__slide *s, nsvcd__d3 a) {
   return nsvcd__d3_fma(-nsvcd__d3_dot(a, s->up), s->up, a);
 }
 
-// What is too steep to stand on is a wall. For whoever stands it is upright; who is in the air slides
-// down it, but does not rise by walking into it.
+// What is too steep to stand on is a wall. For whoever stands it is upright; who is in the air
+// slides down it, but does not rise by walking into it.
 static void nsvcd__meet_walls(nsvcd__slide *s) {
   for (size_t k = s->kept; k < s->contact_count; k++) {
     nsvcd__hold *h = &s->holds[k];
@@ -2514,8 +2515,8 @@ static int nsvcd__slide_round(nsvcd__slide *s, int is_first, int *rests) {
   return nsvcd__push_off(s) || gone > 0;
 }
 
-static void nsvcd__slide_answer(nsvcd__slide *s, nsvcd_velocity *velocity,
-                                nsvcd_slide_answer *out) {
+static void nsvcd__tell_slide(nsvcd__slide *s, nsvcd_velocity *velocity,
+                              nsvcd_slide_answer *out) {
   const double used = 1 - s->lost;
   out->pose = s->pose;
   const nsvcd__d3 linear =
@@ -2542,8 +2543,7 @@ NSVCDDEF nsvcd_result nsvcd_world_slide(nsvcd_world *world, size_t id,
   nsvcd_slide_answer out;
   if (!world || !velocity || !answer) return NSVCD_ERROR_ARGUMENT;
   const nsvcd_slide_options *given = options ? options : &usual;
-  const uint32_t changes = world->changes;
-  if (changes & 1) return NSVCD_ERROR_WORLD;
+  if (world->changes & 1) return NSVCD_ERROR_WORLD;
   nsvcd_result result =
       nsvcd__slide_begin(world, id, given, seconds, workspace, workspace_size, velocity, &s);
   if (result) return result;
@@ -2582,11 +2582,10 @@ NSVCDDEF nsvcd_result nsvcd_world_slide(nsvcd_world *world, size_t id,
     if (stood && !s.ground && given->step > 0 && rises <= 0) nsvcd__step_down(&s);
   }
   if (s.ask.result) return s.ask.result;
-  if (changes != world->changes) return NSVCD_ERROR_WORLD;
   if (!out.rests) result = nsvcd_world_move(world, id, &s.pose);
   if (result) return result;
   out.clock = world->clock;
-  nsvcd__slide_answer(&s, velocity, &out);
+  nsvcd__tell_slide(&s, velocity, &out);
   *answer = out;
   return NSVCD_OK;
 }

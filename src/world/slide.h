@@ -59,8 +59,8 @@ static nsvcd__d3 nsvcd__pivot_at(const nsvcd__slide *s) {
   return nsvcd__pivot_of(&s->pose, s->ask.shape.pivot);
 }
 
-// How fast a driven body moves a point that is there now, and goes with it, on average over what is left
-// of the frame.
+// How fast a driven body moves a point that is there now, and goes with it, on average over what is
+// left of the frame.
 static nsvcd__d3 nsvcd__driven_speed(const nsvcd__slide *s, size_t id, nsvcd__d3 point) {
   const nsvcd__resident *r = &s->ask.world->residents[id];
   if (!r->is_driven || !(s->left > 0)) return nsvcd__d3_of(0, 0, 0);
@@ -169,26 +169,21 @@ static double nsvcd__go(nsvcd__slide *s, const nsvcd_pose *to, int at_once) {
 
 // At once, straight: how far, as a fraction.
 static double nsvcd__go_by(nsvcd__slide *s, nsvcd__d3 by) {
-  nsvcd_pose to = s->pose;
-  const nsvcd__d3 at = nsvcd__d3_add(nsvcd__d3_load(to.position), by);
-  nsvcd__f3_store(nsvcd__f3_round(at), to.position);
+  const nsvcd_pose to = nsvcd__displaced(&s->pose, by);
   return nsvcd__go(s, &to, 1);
 }
 
-// The body cannot go on: it may be within the clearance of something, or a driven body may be about
-// to come there. It is pushed out, to where it rests or else as far as it has to be. Returns whether
-// it was.
+// The body cannot go on: something is within its clearance, or about to come there. It is pushed
+// out, to where it rests or else as far as it has to be. Returns whether it was.
 static int nsvcd__push_off(nsvcd__slide *s) {
   nsvcd__asker q = s->ask;
   q.since = 1 - s->left;
   q.question.a.poses = &s->pose;
   for (int k = 0; k < 2; k++) {
-    nsvcd_pose to = s->pose;
     q.question.clearance = (float)(s->clearance + (k ? 0 : 0.75 * s->margin));
     q.question.slop = 2 * q.question.clearance;
     const nsvcd__d3 by = nsvcd__push_out_of_all(&q);
-    const nsvcd__d3 at = nsvcd__d3_add(nsvcd__d3_load(to.position), by);
-    nsvcd__f3_store(nsvcd__f3_round(at), to.position);
+    const nsvcd_pose to = nsvcd__displaced(&s->pose, by);
     if (!(nsvcd__d3_dot(by, by) > 0) || !nsvcd__may_be_at(&s->ask, &to, q.since, 0)) continue;
     s->pose = to;
     return 1;
@@ -223,8 +218,8 @@ static nsvcd__d3 nsvcd__flat_part(const nsvcd__slide *s, nsvcd__d3 a) {
   return nsvcd__d3_fma(-nsvcd__d3_dot(a, s->up), s->up, a);
 }
 
-// What is too steep to stand on is a wall. For whoever stands it is upright; who is in the air slides
-// down it, but does not rise by walking into it.
+// What is too steep to stand on is a wall. For whoever stands it is upright; who is in the air
+// slides down it, but does not rise by walking into it.
 static void nsvcd__meet_walls(nsvcd__slide *s) {
   for (size_t k = s->kept; k < s->contact_count; k++) {
     nsvcd__hold *h = &s->holds[k];
@@ -429,8 +424,8 @@ static int nsvcd__slide_round(nsvcd__slide *s, int is_first, int *rests) {
   return nsvcd__push_off(s) || gone > 0;
 }
 
-static void nsvcd__slide_answer(nsvcd__slide *s, nsvcd_velocity *velocity,
-                                nsvcd_slide_answer *out) {
+static void nsvcd__tell_slide(nsvcd__slide *s, nsvcd_velocity *velocity,
+                              nsvcd_slide_answer *out) {
   const double used = 1 - s->lost;
   out->pose = s->pose;
   const nsvcd__d3 linear =
@@ -457,8 +452,7 @@ NSVCDDEF nsvcd_result nsvcd_world_slide(nsvcd_world *world, size_t id,
   nsvcd_slide_answer out;
   if (!world || !velocity || !answer) return NSVCD_ERROR_ARGUMENT;
   const nsvcd_slide_options *given = options ? options : &usual;
-  const uint32_t changes = world->changes;
-  if (changes & 1) return NSVCD_ERROR_WORLD;
+  if (world->changes & 1) return NSVCD_ERROR_WORLD;
   nsvcd_result result =
       nsvcd__slide_begin(world, id, given, seconds, workspace, workspace_size, velocity, &s);
   if (result) return result;
@@ -497,11 +491,10 @@ NSVCDDEF nsvcd_result nsvcd_world_slide(nsvcd_world *world, size_t id,
     if (stood && !s.ground && given->step > 0 && rises <= 0) nsvcd__step_down(&s);
   }
   if (s.ask.result) return s.ask.result;
-  if (changes != world->changes) return NSVCD_ERROR_WORLD;
   if (!out.rests) result = nsvcd_world_move(world, id, &s.pose);
   if (result) return result;
   out.clock = world->clock;
-  nsvcd__slide_answer(&s, velocity, &out);
+  nsvcd__tell_slide(&s, velocity, &out);
   *answer = out;
   return NSVCD_OK;
 }
