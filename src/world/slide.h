@@ -59,8 +59,8 @@ static nsvcd__d3 nsvcd__pivot_at(const nsvcd__slide *s) {
   return nsvcd__pivot_of(&s->pose, s->ask.shape.pivot);
 }
 
-// How fast a driven body moves a point that is there now, and goes with it, on average over what is left
-// of the frame.
+// How fast a driven body moves a point that is there now, and goes with it, on average over what is
+// left of the frame.
 static nsvcd__d3 nsvcd__driven_speed(const nsvcd__slide *s, size_t id, nsvcd__d3 point) {
   const nsvcd__resident *r = &s->ask.world->residents[id];
   if (!r->is_driven || !(s->left > 0)) return nsvcd__d3_of(0, 0, 0);
@@ -169,26 +169,26 @@ static double nsvcd__go(nsvcd__slide *s, const nsvcd_pose *to, int at_once) {
 
 // At once, straight: how far, as a fraction.
 static double nsvcd__go_by(nsvcd__slide *s, nsvcd__d3 by) {
-  nsvcd_pose to = s->pose;
-  const nsvcd__d3 at = nsvcd__d3_add(nsvcd__d3_load(to.position), by);
-  nsvcd__f3_store(nsvcd__f3_round(at), to.position);
+  const nsvcd_pose to = nsvcd__displaced(&s->pose, by);
   return nsvcd__go(s, &to, 1);
 }
 
-// The body cannot go anywhere: it may be within the clearance of something, and then it is pushed
-// out. Returns whether it was.
+// The body cannot go on: something is within its clearance, or about to come there. It is pushed
+// out, to where it rests or else as far as it has to be. Returns whether it was.
 static int nsvcd__push_off(nsvcd__slide *s) {
   nsvcd__asker q = s->ask;
-  nsvcd_pose to = s->pose;
   q.since = 1 - s->left;
-  q.question.slop = (float)(s->clearance + s->margin);
   q.question.a.poses = &s->pose;
-  const nsvcd__d3 by = nsvcd__push_out_of_all(&q);
-  const nsvcd__d3 at = nsvcd__d3_add(nsvcd__d3_load(to.position), by);
-  nsvcd__f3_store(nsvcd__f3_round(at), to.position);
-  if (!(nsvcd__d3_dot(by, by) > 0) || !nsvcd__may_be_at(&s->ask, &to, q.since, 0)) return 0;
-  s->pose = to;
-  return 1;
+  for (int k = 0; k < 2; k++) {
+    q.question.clearance = (float)(s->clearance + (k ? 0 : 0.75 * s->margin));
+    q.question.slop = 2 * q.question.clearance;
+    const nsvcd__d3 by = nsvcd__push_out_of_all(&q);
+    const nsvcd_pose to = nsvcd__displaced(&s->pose, by);
+    if (!(nsvcd__d3_dot(by, by) > 0) || !nsvcd__may_be_at(&s->ask, &to, q.since, 0)) continue;
+    s->pose = to;
+    return 1;
+  }
+  return 0;
 }
 
 // Could a driven body come to where the body is?
@@ -197,6 +197,11 @@ static int nsvcd__is_driven_near(nsvcd__slide *s) {
   for (uint32_t id = 0; (id = nsvcd__asker_next(&s->ask, id)) != 0;)
     if (s->ask.world->residents[id].is_driven) return 1;
   return 0;
+}
+
+// Is it a driven body that its last way met first?
+static int nsvcd__met_driven(const nsvcd__slide *s) {
+  return s->met != NSVCD_NOBODY && s->ask.world->residents[s->met].is_driven;
 }
 
 // How far points of the body go in the rest of the frame, at most, metres.
@@ -213,27 +218,36 @@ static nsvcd__d3 nsvcd__flat_part(const nsvcd__slide *s, nsvcd__d3 a) {
   return nsvcd__d3_fma(-nsvcd__d3_dot(a, s->up), s->up, a);
 }
 
-// Whoever stands on a ground does not slide down it, and walks up it as fast as on the level; what
-// is too steep to stand on is a wall.
-static void nsvcd__stand(nsvcd__slide *s) {
-  if (!s->ground) return;
-  const nsvcd__d3 n = nsvcd__d3_load(s->ground->contact.normal);
-  const nsvcd__d3 own = nsvcd__d3_sub(s->thing.linear, s->ridden);
-  const int falls = nsvcd__d3_dot(own, s->up) < 0;
-  const double steep = nsvcd__d3_dot(n, s->up);
-  nsvcd__d3 walks = falls ? nsvcd__flat_part(s, own) : own;
-  const double into = -nsvcd__d3_dot(walks, n);
-  if (into > 0) walks = nsvcd__d3_fma(into / steep, s->up, walks);
-  // down to where it rests, if that is lower
-  const double least = falls ? s->holds[s->ground - s->contacts].least / steep : 0;
-  s->thing.linear = nsvcd__d3_add(nsvcd__d3_fma(least, s->up, walks), s->ridden);
+// What is too steep to stand on is a wall. For whoever stands it is upright; who is in the air
+// slides down it, but does not rise by walking into it.
+static void nsvcd__meet_walls(nsvcd__slide *s) {
   for (size_t k = s->kept; k < s->contact_count; k++) {
     nsvcd__hold *h = &s->holds[k];
-    const nsvcd__d3 flat = nsvcd__flat_part(s, h->normal);
-    const double steep = nsvcd__d3_norm(flat);
     const double rise = nsvcd__d3_dot(h->normal, s->up);
-    if (rise > 0 && rise < s->slope) h->normal = nsvcd__d3_scale(flat, 1 / steep);
+    if (!(rise > 0) || rise >= s->slope) continue;
+    const nsvcd__d3 flat = nsvcd__flat_part(s, h->normal);
+    const nsvcd__d3 away = nsvcd__d3_scale(flat, 1 / nsvcd__d3_norm(flat));
+    const double into = nsvcd__d3_dot(nsvcd__d3_sub(h->speed, s->thing.linear), away);
+    if (s->ground) h->normal = away;
+    if (!s->ground && into > 0) s->thing.linear = nsvcd__d3_fma(into, away, s->thing.linear);
   }
+}
+
+// Whoever stands on a ground does not slide down it, and walks up it as fast as on the level.
+static void nsvcd__stand(nsvcd__slide *s) {
+  if (s->ground) {
+    const nsvcd__d3 n = nsvcd__d3_load(s->ground->contact.normal);
+    const nsvcd__d3 own = nsvcd__d3_sub(s->thing.linear, s->ridden);
+    const int falls = nsvcd__d3_dot(own, s->up) < 0;
+    const double steep = nsvcd__d3_dot(n, s->up);
+    nsvcd__d3 walks = falls ? nsvcd__flat_part(s, own) : own;
+    const double into = -nsvcd__d3_dot(walks, n);
+    if (into > 0) walks = nsvcd__d3_fma(into / steep, s->up, walks);
+    // down to where it rests, if that is lower
+    const double least = falls ? s->holds[s->ground - s->contacts].least / steep : 0;
+    s->thing.linear = nsvcd__d3_add(nsvcd__d3_fma(least, s->up, walks), s->ridden);
+  }
+  nsvcd__meet_walls(s);
 }
 
 // Onto a step: up, along, and down again. What has been gone of the way is not gone again. Returns
@@ -254,6 +268,7 @@ static int nsvcd__climb(nsvcd__slide *s) {
     return 1;
   }
   s->pose = start;
+  if (is_higher) nsvcd__slide_look(s);
   return 0;
 }
 
@@ -345,11 +360,15 @@ static nsvcd_result nsvcd__slide_begin(const nsvcd_world *world, size_t id,
   return NSVCD_OK;
 }
 
-// Does the body, as it is, need no way at all in this frame?
-static int nsvcd__is_still(nsvcd__slide *s) {
-  const int rubs = s->thing.friction > 0 && s->contact_count > s->kept;
+// Does the body, as it is, need no way at all in this frame? If it touches something, a way that
+// floats do not show is none.
+static int nsvcd__is_still(nsvcd__slide *s, const nsvcd_pose *to) {
+  const int touches = s->contact_count > s->kept;
+  const int rubs = s->thing.friction > 0 && touches;
   const double most = rubs ? NSVCD__STILL * s->margin : NSVCD__BOX_ROUNDING * s->margin;
-  return nsvcd__travel_left(s) <= most && !nsvcd__is_driven_near(s);
+  const int is_short =
+      nsvcd__travel_left(s) <= most || (touches && !memcmp(to, &s->pose, sizeof *to));
+  return is_short && !nsvcd__is_driven_near(s);
 }
 
 // Does it rest as it did in the frame before: is it told the same, and has nothing moved that it
@@ -392,20 +411,21 @@ static int nsvcd__slide_round(nsvcd__slide *s, int is_first, int *rests) {
   const double turn = nsvcd__d3_norm(thing->angular) * s->left * s->seconds;
   if (turn > NSVCD__MOST_TURN)
     thing->angular = nsvcd__d3_scale(thing->angular, NSVCD__MOST_TURN / turn);
-  if (nsvcd__is_still(s)) {
+  const nsvcd_pose to = nsvcd__aim(s, s->left * s->seconds);
+  if (nsvcd__is_still(s, &to)) {
     thing->linear = thing->angular = nsvcd__d3_of(0, 0, 0);
     s->left = 0;
     *rests = is_first;
     return 0;
   }
-  const nsvcd_pose to = nsvcd__aim(s, s->left * s->seconds);
   const double gone = nsvcd__go(s, &to, 0);
   if (s->ask.result || gone >= 1) return 0;
-  return gone > 0 || nsvcd__push_off(s);
+  if (gone > 0 && !nsvcd__met_driven(s)) return 1;
+  return nsvcd__push_off(s) || gone > 0;
 }
 
-static void nsvcd__slide_answer(nsvcd__slide *s, nsvcd_velocity *velocity,
-                                nsvcd_slide_answer *out) {
+static void nsvcd__tell_slide(nsvcd__slide *s, nsvcd_velocity *velocity,
+                              nsvcd_slide_answer *out) {
   const double used = 1 - s->lost;
   out->pose = s->pose;
   const nsvcd__d3 linear =
@@ -432,6 +452,7 @@ NSVCDDEF nsvcd_result nsvcd_world_slide(nsvcd_world *world, size_t id,
   nsvcd_slide_answer out;
   if (!world || !velocity || !answer) return NSVCD_ERROR_ARGUMENT;
   const nsvcd_slide_options *given = options ? options : &usual;
+  if (world->changes & 1) return NSVCD_ERROR_WORLD;
   nsvcd_result result =
       nsvcd__slide_begin(world, id, given, seconds, workspace, workspace_size, velocity, &s);
   if (result) return result;
@@ -447,7 +468,9 @@ NSVCDDEF nsvcd_result nsvcd_world_slide(nsvcd_world *world, size_t id,
   const size_t rounds = given->rounds ? given->rounds : NSVCD__USUAL_ROUNDS;
   int more = 1;
   int stood = 0;
-  for (size_t round = 0; round < rounds && more && s.left > 1e-4; round++) {
+  for (size_t round = 0; more && s.left > 1e-4; round++) {
+    // a driven body that turns is met again and again, and does not wait
+    if (round >= (nsvcd__met_driven(&s) ? 4 * rounds : rounds)) break;
     more = nsvcd__slide_round(&s, round == 0, &out.rests);
     if (round == 0) stood = s.ground != NULL;
   }
@@ -471,7 +494,7 @@ NSVCDDEF nsvcd_result nsvcd_world_slide(nsvcd_world *world, size_t id,
   if (!out.rests) result = nsvcd_world_move(world, id, &s.pose);
   if (result) return result;
   out.clock = world->clock;
-  nsvcd__slide_answer(&s, velocity, &out);
+  nsvcd__tell_slide(&s, velocity, &out);
   *answer = out;
   return NSVCD_OK;
 }
