@@ -13984,17 +13984,24 @@ static void nsvcd__pair_arm(const nsvcd__arc *arc, nsvcd__triangle_pair *pair) {
   pair->from_axis = nsvcd__min(pair->from_axis, pair->from_origin);
 }
 
-static nsvcd__triangle_pair nsvcd__pair_of(const nsvcd__proof *p, size_t i, size_t j, size_t a,
-                                           size_t b) {
+// Of bodies at rest.
+static nsvcd__triangle_pair nsvcd__still_pair_of(const nsvcd__proof *p, size_t i, size_t j,
+                                                 size_t a, size_t b) {
   nsvcd__triangle_pair pair = {i, j, a, b, {{0, 0, 0}}, {{0, 0, 0}}, 0, 0, 0, 0, 0, 0};
   nsvcd__patch_triangle(&p->moving, i, a, pair.moving);
   nsvcd__patch_triangle(&p->fixed, j, b, pair.fixed);
-  nsvcd__pair_arm(&p->arcs.arc, &pair);
-  pair.speed = p->arcs.arc.speed + p->arcs.arc.turn * p->arcs.arc.scale * pair.from_axis;
   pair.rounding =
       NSVCD__SAME_POSITION * ((double)p->given.lengths + nsvcd__d3_norm(p->arcs.arc.from));
-  pair.margin = pair.rounding + nsvcd__off_meshes(p);
-  pair.margin += NSVCD__SAME_POSITION * nsvcd__d3_norm(p->arcs.arc.moved);
+  return pair;
+}
+
+static nsvcd__triangle_pair nsvcd__pair_of(const nsvcd__proof *p, size_t i, size_t j, size_t a,
+                                           size_t b) {
+  nsvcd__triangle_pair pair = nsvcd__still_pair_of(p, i, j, a, b);
+  nsvcd__pair_arm(&p->arcs.arc, &pair);
+  pair.speed = p->arcs.arc.speed + p->arcs.arc.turn * p->arcs.arc.scale * pair.from_axis;
+  const double moved = NSVCD__SAME_POSITION * nsvcd__d3_norm(p->arcs.arc.moved);
+  pair.margin = pair.rounding + nsvcd__off_meshes(p) + moved;
   pair.close = pair.margin + NSVCD__TOO_NEAR * (double)p->given.lengths + p->given.tolerance;
   return pair;
 }
@@ -14607,7 +14614,7 @@ typedef struct nsvcd__posed_pair {
 
 static void nsvcd__posed_pair_of(const nsvcd__proof *p, const nsvcd__dtransform *at,
                                  const nsvcd__near_pair *item, nsvcd__posed_pair *out) {
-  out->pair = nsvcd__pair_of(p, item->moving_patch, item->fixed_patch, item->moving_entry,
+  out->pair = nsvcd__still_pair_of(p, item->moving_patch, item->fixed_patch, item->moving_entry,
                              item->fixed_entry);
   nsvcd__pose_triangle(at, out->pair.moving, out->posed);
 }
@@ -18594,6 +18601,7 @@ static void nsvcd__record(const nsvcd__task *task, nsvcd__tape *tape) {
 #define nsvcd__sort_patch_pairs NSVCD__AT(sort_patch_pairs)
 #define nsvcd__spheres_at_box NSVCD__AT(spheres_at_box)
 #define nsvcd__sticks_out NSVCD__AT(sticks_out)
+#define nsvcd__still_pair_of NSVCD__AT(still_pair_of)
 #define nsvcd__support NSVCD__AT(support)
 #define nsvcd__support_along NSVCD__AT(support_along)
 #define nsvcd__surface_is_near NSVCD__AT(surface_is_near)

@@ -50,6 +50,8 @@
 //     cholesky        linear equations
 //     reach           configurations that have a tool at a target
 //     spans           two parts, and the joints between them
+//     meetings        configurations in which two parts meet, and do not
+//     partings        does a plane part two parts in a box of values?
 //     ranges          do two parts meet never, always or sometimes?
 //     blends          from one state to another, within limits of speed and acceleration
 //     smooth          a path, timed, then smooth
@@ -531,8 +533,9 @@ NSVCDDEF nsvcd_result nsvcd_reparent(const nsvcd_checker *checker, const double 
 //
 // What setup assistants tell from random configurations is proven here, over all values of the
 // joints within their limits. Values are cut into boxes. In a box the two parts are apart if a
-// sweep along one of its joints is free, with how far the other joints can move a point as a
-// clearance. They meet everywhere in a box if a point of both stays inside of both.
+// plane is between them whatever the joints do; or if a sweep along one of its joints is free, with
+// how far the other joints can move a point as a clearance. They meet everywhere in a box if a
+// point of both stays inside of both.
 
 // Do two parts meet, or come within the clearance?
 typedef enum nsvcd_meeting {
@@ -555,7 +558,7 @@ typedef struct nsvcd_range_options {
   float clearance;
   // units for each proof of a sweep or a configuration; default NSVCD_DEFAULT_WORK
   size_t work;
-  // the most boxes that are looked into, up to NSVCD_MAX_BOXES; default 2,000
+  // the most boxes that are looked into, up to NSVCD_MAX_BOXES, which is the default
   size_t boxes;
   // seed of the random numbers
   uint64_t seed;
@@ -564,6 +567,9 @@ typedef struct nsvcd_range_options {
   int (*stop)(void *user);
   // passed to `stop`
   void *user;
+  // units of the whole search, approximately, of which a question takes some beside its proof;
+  // default 4,000,000
+  size_t units;
 } nsvcd_range_options;
 
 #define NSVCD_MAX_BOXES 10000000
@@ -573,7 +579,9 @@ typedef struct nsvcd_range_answer {
   nsvcd_meeting meeting;
   // the reason if it is UNKNOWN. TOO_NEAR: somewhere they are too near each other to tell, or they
   // meet but no point was found that stays inside of both. WORK: boxes or units of work were not
-  // enough, or the search was stopped. OPEN: as nsvcd_why has it
+  // enough, or the search was stopped. OPEN: as nsvcd_why has it, or they meet wherever that was
+  // asked, and all components of one are open, so that no point is known to be inside of it: more
+  // work will not tell
   nsvcd_why why;
   // number of joints between the two parts, each leader counted once with those that mimic it; the
   // others do not matter
@@ -606,13 +614,14 @@ NSVCDDEF size_t nsvcd_pair_range_size(const nsvcd_checker *checker, nsvcd_body_p
 //   threads    each needs memory of its own; the checker may be shared
 //   errors     ARGUMENT, PAIR, CLEARANCE, COUNT (boxes), WORKSPACE; POSE, SCALE, as nsvcd_check
 //   source     branch and bound, by a Lipschitz bound; difference: along one joint the motion
-//              itself is proven
+//              itself is proven, and joints count by how they move points along a plane's normal
 //
 // Allowances and cones of the scene do not count.
 //
-// One joint between the parts takes one proof, two some ten to a thousand, as near as the parts
-// come. With more joints SOMETIMES is found soon where it is so, by configurations drawn at random
-// and by going down the slope of the distance.
+// One joint between the parts takes one proof, two some ten to a thousand boxes, as near as the
+// parts come. With more joints SOMETIMES is found soon where it is so, by configurations drawn at
+// random and by going down the slope of the distance. NEVER takes the longer the nearer the parts
+// come, and the more joints there are.
 NSVCDDEF nsvcd_result nsvcd_pair_range(const nsvcd_checker *checker, nsvcd_body_pair pair,
                                        const nsvcd_range_options *options, void *memory,
                                        size_t size, nsvcd_range_answer *answer);
@@ -1759,6 +1768,8 @@ static void *nsvcd__take(char *base, uint64_t *used, size_t rows, size_t row_siz
 //   cholesky         linear equations
 //   reach            configurations that have a tool at a target
 //   spans            two parts, and how far the joints between them move a point
+//   meetings         configurations in which two parts meet, and in which they do not
+//   partings         does a plane part two parts in all of a box of values?
 //   ranges           do two parts meet never, always or sometimes?
 //   blends           from one state to another, within limits of speed and acceleration
 //   smooth           a path, timed, then smooth
@@ -1862,6 +1873,8 @@ struct nsvcd_checker {
   void *user;
   // an error of a question, which ends those that follow
   nsvcd_result result;
+  // units that questions took so far
+  uint64_t units;
 };
 
 static nsvcd__d3 nsvcd__dquat_rotate(nsvcd__dquat q, nsvcd__d3 a) {
@@ -2624,6 +2637,7 @@ NSVCDDEF nsvcd_result nsvcd_checker_open(const nsvcd_scene *scene, void *memory,
   c->own.joints = c->joints;
   c->scene = scene;
   c->surfaces = 0;
+  c->units = 0;
   c->stop = NULL;
   c->result = NSVCD_OK;
   for (size_t i = 0; i < scene->joint_count; i++) {
@@ -3083,6 +3097,7 @@ static nsvcd_verdict nsvcd__ask_sweep(nsvcd_checker *c, const nsvcd_question *q,
   asked.stop = c->stop;
   asked.user = c->user;
   if (!c->result) c->result = nsvcd_sweep(&asked, c->query, c->query_size, found);
+  c->units += found->work;
   return found->verdict;
 }
 
@@ -5314,7 +5329,8 @@ NSVCDDEF nsvcd_result nsvcd_reach(nsvcd_checker *checker, const nsvcd_reach_prob
 // of its centre, joints may change one after another. So from the centre d changes by no more than
 //   sum over joints k of h_k r_k
 // A joint that mimics another reaches its multiplier times as far.
-// r_k: of all configurations of the box. It is that of the centre, and what the joints between the
+// r_k: of all configurations of the box. It is that of the centre, where no point is farther than
+// the part's sphere or the corners of its box, and what the joints between the
 // part and k add: the chord 2 r sin(h / 2) of each, h up to pi, or h if it slides.
 // Source: this library.
 
@@ -5354,6 +5370,10 @@ typedef struct nsvcd__span {
   // of the path: the box, half its widths, and r of the banner
   double low[NSVCD_MAX_JOINTS], high[NSVCD_MAX_JOINTS];
   double half[NSVCD_MAX_JOINTS], arms[NSVCD_MAX_JOINTS];
+  // of the way: half the widths, and the sines of half of these
+  double reach[NSVCD_MAX_JOINTS], sines[NSVCD_MAX_JOINTS];
+  // metres: what both parts go beyond their triangles, and these beyond those of their meshes
+  double beyond;
   // metres: no point of a probe is farther from its position
   double probe_extent;
 } nsvcd__span;
@@ -5380,34 +5400,62 @@ static void nsvcd__values_of(const nsvcd_joint *joint, double *low, double *high
   *high = is_endless ? 6.28318530717960 : joint->high;
 }
 
-// A sphere about a part, or a probe, in the world.
+// A sphere about a part, or a probe, in the world; and a box about the part.
 typedef struct nsvcd__rider {
   nsvcd__d3 centre;
   double radius;
+  // the middle of the box, and from there to its sides; 0 of a probe
+  nsvcd__d3 middle, sides[3];
 } nsvcd__rider;
 
 static nsvcd__rider nsvcd__rider_of(const nsvcd_checker *c, const nsvcd__links *at,
                                     size_t part) {
   const nsvcd__member *m = &c->members[part];
   const nsvcd__dpose *frame = &at->frames[c->scene->parts[part].link];
-  const nsvcd__rider out = {nsvcd__dpose_apply(frame, m->centre), m->radius};
+  const nsvcd__dpose at_part = nsvcd__dpose_mul(frame, &m->frame);
+  nsvcd__rider out;
+  out.centre = nsvcd__dpose_apply(frame, m->centre);
+  out.radius = m->radius;
+  out.middle = nsvcd__dpose_apply(&at_part, m->middle);
+  for (size_t k = 0; k < 3; k++) {
+    nsvcd__d3 side = {0, 0, 0};
+    // distances are those of triangles
+    nsvcd__d3_set_axis(&side, k, 1.000001 * (nsvcd__d3_axis(m->half, k) - m->round));
+    out.sides[k] = nsvcd__dquat_rotate(at_part.rotation, side);
+  }
   return out;
 }
 
+// The farthest that a point of a rider is from an axis through a point: no farther than a corner of
+// its box, nor than its sphere reaches.
+static double nsvcd__across(const nsvcd__rider *rider, nsvcd__d3 axis, nsvcd__d3 foot) {
+  const nsvcd__d3 off = nsvcd__d3_cross(axis, nsvcd__d3_sub(rider->centre, foot));
+  const nsvcd__d3 middle = nsvcd__d3_cross(axis, nsvcd__d3_sub(rider->middle, foot));
+  double most = 0;
+  for (size_t corner = 0; corner < 8; corner++) {
+    nsvcd__d3 out = middle;
+    for (size_t k = 0; k < 3; k++)
+      out =
+          nsvcd__d3_fma(corner >> k & 1 ? 1 : -1, nsvcd__d3_cross(axis, rider->sides[k]), out);
+    most = nsvcd__max(most, nsvcd__d3_dot(out, out));
+  }
+  return nsvcd__min(nsvcd__d3_norm(off) + rider->radius, sqrt(most));
+}
+
 // r of the banner, of the joints of a way from one part to the other, which reach so far to either
-// side. balls: each rides on the link of one part.
+// side. riders: each on the link of one part.
 static void nsvcd__arms_along(const nsvcd_checker *c, const size_t *way, size_t count,
                               const double *reach, const nsvcd__links *at,
-                              const nsvcd__rider *balls, double *arms) {
+                              const nsvcd__rider *riders, double *arms) {
   for (size_t side = 0; side < 2; side++) {
     double moved = 0;
     for (size_t n = 0; n < count; n++) {
       const size_t k = side ? count - 1 - n : n;
       const size_t j = way[k];
-      const nsvcd__d3 off = nsvcd__d3_sub(balls[side].centre, at->frames[j + 1].position);
-      const double across = nsvcd__d3_norm(nsvcd__d3_cross(at->axes[j], off));
+      const double across =
+          nsvcd__across(&riders[side], at->axes[j], at->frames[j + 1].position);
       const int slides = nsvcd__slides(c, j);
-      const double arm = slides ? 1 : across + balls[side].radius + moved;
+      const double arm = slides ? 1 : across + moved;
       const double half = nsvcd__min(reach[k], 3.141592653589793);
       moved += slides ? reach[k] : 2 * arm * sin(0.5 * half);
       arms[k] = side ? nsvcd__min(arms[k], arm) : arm;
@@ -5417,14 +5465,14 @@ static void nsvcd__arms_along(const nsvcd_checker *c, const size_t *way, size_t 
 
 // Those of the joints of a span's path, each with all that it drives.
 static void nsvcd__arms_between(nsvcd__span *s, const nsvcd__links *at,
-                                const nsvcd__rider *balls) {
+                                const nsvcd__rider *riders) {
   double rates[NSVCD_MAX_JOINTS], arms[NSVCD_MAX_JOINTS];
-  double reach[NSVCD_MAX_JOINTS] = {0};
   for (size_t k = 0; k < s->way_count; k++) {
     rates[k] = fabs(nsvcd__rate(&s->scene, s->way[k]));
-    reach[k] = rates[k] * s->half[s->drivers[k]];
+    s->reach[k] = rates[k] * s->half[s->drivers[k]];
+    s->sines[k] = sin(0.5 * nsvcd__min(s->reach[k], 3.141592653589793));
   }
-  nsvcd__arms_along(s->checker, s->way, s->way_count, reach, at, balls, arms);
+  nsvcd__arms_along(s->checker, s->way, s->way_count, s->reach, at, riders, arms);
   for (size_t k = 0; k < s->joints; k++) s->arms[k] = 0;
   for (size_t k = 0; k < s->way_count; k++) s->arms[s->drivers[k]] += rates[k] * arms[k];
 }
@@ -5460,9 +5508,9 @@ NSVCDDEF nsvcd_result nsvcd_pair_travel(const nsvcd_checker *c, nsvcd_body_pair 
     half[k] = nsvcd__max(high[j] - middle, middle - low[j]) * (1 + 1e-15);
   }
   nsvcd__place_links(c, middles, &at);
-  const nsvcd__rider balls[2] = {nsvcd__rider_of(c, &at, pair.a),
-                                 nsvcd__rider_of(c, &at, pair.b)};
-  nsvcd__arms_along(c, way, count, half, &at, balls, arms);
+  const nsvcd__rider riders[2] = {nsvcd__rider_of(c, &at, pair.a),
+                                  nsvcd__rider_of(c, &at, pair.b)};
+  nsvcd__arms_along(c, way, count, half, &at, riders, arms);
   for (size_t j = 0; j < scene->joint_count; j++) moved[j] = 0;
   for (size_t k = 0; k < count; k++) moved[way[k]] = half[k] * arms[k] * (1 + 1e-9);
   return NSVCD_OK;
@@ -5541,6 +5589,11 @@ static void nsvcd__span_begin(const nsvcd_scene *scene, nsvcd_body_pair pair, ns
     s->at[j] = 0.5 * (low + high);
   }
   nsvcd__follow(scene, 1, s->at);
+  for (size_t n = 0; n < 2; n++) {
+    const nsvcd_body_facts facts = nsvcd_body_describe(s->parts[n].body);
+    const double scale = s->parts[n].scale > 0 ? (double)s->parts[n].scale : 1;
+    s->beyond += scale * ((double)facts.convex_radius + (double)facts.quantization_error);
+  }
   // of all bodies the one with the fewest triangles
   nsvcd_part *probe = &s->parts[2];
   size_t fewest = SIZE_MAX;
@@ -5571,39 +5624,27 @@ static void nsvcd__put_probe(nsvcd__span *s, const nsvcd__probe *at) {
   m->row = row;
 }
 
-// ------------------------------------------------------------------------------------ robot/ranges
-// In: two parts of a robot. Out: do they meet never, always or sometimes, over all values of the
-// joints between them?
+// ---------------------------------------------------------------------------------- robot/meetings
+// In: two parts of a robot. Out: a configuration in which they meet, and one in which they do not.
 //
-// Some 64 configurations are tried first. If the parts meet in some and not in others, that is the
-// answer. If they meet in none, boxes of values are proven to be free; if in all, to be such
-// that a point of one part stays inside of the other:
-//
-//   free   a sweep along one joint of the box, with all that the other joints can move a point as a
-//          clearance (robot/spans.h)
-//   hit    a point inside of both parts rides on one of them. Along the same sweep, with the same
-//          clearance, it does not meet the surface of the other part: so it stays inside of it. Two
-//          solids that have a point in common meet: either their surfaces do, or a component of one
-//          is inside of the other
-//
-// A box that is neither is cut in two along the joint that moves points farthest.
+// Configurations are drawn at random. From some of them the distance is followed down its slope
+// until the parts meet, or up until they do not. A joint at its limit stays there while the slope
+// leads beyond it.
 
-// defaults, and numbers of configurations
-#define NSVCD__RANGE_BOXES 2000
-#define NSVCD__RANGE_DRAWS 64
-// boxes that fail before the slope is followed, and how far it is
-#define NSVCD__RANGE_SLOPES 24
-#define NSVCD__SLOPE_STEPS 12
-// metres: a box in which points move by less is not cut
-#define NSVCD__LEAST_TRAVEL 2e-5
-// the share of the joint that is swept along, when a box is cut
-#define NSVCD__SWEPT_SHARE 0.25
-// probes that are kept; points on each axis, and others, that are tried for one
+// probes that are kept
 #define NSVCD__KEPT_PROBES 4
-#define NSVCD__AXIS_POINTS 8
-#define NSVCD__OTHER_POINTS 32
-// units for a question about a probe in one configuration
-#define NSVCD__PROBE_WORK 20000
+// configurations that are drawn at first
+#define NSVCD__RANGE_DRAWS 64
+// slopes that are followed from configurations drawn at random, down, and up, which takes longer;
+// steps of each; and the share of the first step below which one ends
+#define NSVCD__SLOPES_DOWN 12
+#define NSVCD__SLOPES_UP 2
+#define NSVCD__SLOPE_STEPS 30
+#define NSVCD__LEAST_STEP 0.01
+// units for a question about the distance, of which a depth takes many
+#define NSVCD__ROOM_WORK 2000
+// units that a question takes beside its proof, about: placing parts, and asking
+#define NSVCD__QUESTION_UNITS 40
 
 typedef struct nsvcd__ranging {
   nsvcd__span span;
@@ -5613,35 +5654,49 @@ typedef struct nsvcd__ranging {
   // ring
   double *boxes;
   size_t capacity, first, count;
-  // that were given up
+  // that were given up: how many, and the fraction
+  size_t dropped_count;
   double dropped;
   // best first
   nsvcd__probe probes[NSVCD__KEPT_PROBES];
   size_t probe_count;
   // boxes that failed
   size_t failed;
+  // units beside those that proofs took
+  uint64_t units;
   uint64_t random;
   nsvcd_result result;
 } nsvcd__ranging;
 
-// ---- configurations
+// ---- asking
 
+// Is it known, is there an error, or no work left?
 static int nsvcd__range_is_over(nsvcd__ranging *r) {
   const nsvcd_range_options *o = &r->options;
   if (r->result || (r->answer.has_free && r->answer.has_hit)) return 1;
-  if (!o->stop || !o->stop(o->user)) return 0;
+  if (r->units + r->span.checker->units < o->units && (!o->stop || !o->stop(o->user)))
+    return 0;
   r->answer.why = NSVCD_WHY_WORK;
   return 1;
+}
+
+// Asks as nsvcd__ask_span does. UNDECIDED if there is an error, which is in r->result.
+static nsvcd_verdict nsvcd__ask_range(nsvcd__ranging *r, int is_probe, size_t along,
+                                      double clearance, nsvcd_check_answer *found) {
+  memset(found, 0, sizeof *found);
+  r->units += NSVCD__QUESTION_UNITS;
+  if (!r->result)
+    r->result = nsvcd__ask_span(&r->span, is_probe, along, clearance, &r->options, found);
+  return found->verdict;
 }
 
 // Asks about the two parts in the configuration span.at, and notes what is known there.
 static nsvcd_verdict nsvcd__note_here(nsvcd__ranging *r) {
   nsvcd_check_answer found;
   nsvcd__span *s = &r->span;
-  nsvcd__follow(&s->scene, 1, s->at);
   const size_t bytes = s->scene.joint_count * sizeof *s->at;
-  const double clearance = (double)r->options.clearance;
-  r->result = nsvcd__ask_span(s, 0, NSVCD_NONE, clearance, &r->options, &found);
+  nsvcd__follow(&s->scene, 1, s->at);
+  (void)nsvcd__ask_range(r, 0, NSVCD_NONE, (double)r->options.clearance, &found);
   if (r->result) return NSVCD_UNDECIDED;
   if (found.verdict == NSVCD_FREE && !r->answer.has_free) {
     memcpy(r->answer.free, s->at, bytes);
@@ -5655,55 +5710,282 @@ static nsvcd_verdict nsvcd__note_here(nsvcd__ranging *r) {
   return found.verdict;
 }
 
+// ---- slopes
+
+// Metres: how far the parts are from coming as near as the clearance, in the configuration span.at;
+// less than 0 if they do. No more than a tenth of `about` too much. Returns 0 if nothing is known.
+static int nsvcd__room_here(nsvcd__ranging *r, double about, nsvcd_proximity *nearest,
+                            double *room) {
+  nsvcd__span *s = &r->span;
+  nsvcd_checker *c = s->checker;
+  const float to = (float)nsvcd__max(1e-5, nsvcd__min(1e-3, 0.1 * fabs(about)));
+  const nsvcd_proximity_options o = {NSVCD_MAX_COORDINATE / 4, to, 0.1f, NSVCD__ROOM_WORK};
+  r->units += NSVCD__QUESTION_UNITS;
+  s->scene.pairs = c->own.pairs = s->pairs;
+  nsvcd__follow(&s->scene, 1, s->at);
+  c->surfaces = 0;
+  c->result = NSVCD_OK;
+  nsvcd__place_links(c, s->at, c->at);
+  nsvcd__place_sample(c, c->at, 0);
+  if (!nsvcd__proximity_of(c, 0, &o, nearest) || c->result) return 0;
+  const int is_hit = nearest->verdict == NSVCD_HIT;
+  *room = is_hit ? -(double)nearest->depth : (double)nearest->distance.high;
+  *room -= (double)r->options.clearance;
+  return 1;
+}
+
+// Moves span.at along the slope, so far that the room would change by `change`.
+static int nsvcd__move_along(nsvcd__span *s, const double *slope, double change) {
+  double low[NSVCD_MAX_JOINTS], high[NSVCD_MAX_JOINTS];
+  double square = 0;
+  for (size_t k = 0; k < s->joints; k++) {
+    const size_t j = s->path[k];
+    nsvcd__values_of(&s->scene.joints[j], &low[k], &high[k]);
+    const int rises = slope[j] * change > 0;
+    const int is_stuck = rises ? !(s->at[j] < high[k]) : !(s->at[j] > low[k]);
+    if (is_stuck) low[k] = high[k] = s->at[j];
+    square += is_stuck ? 0 : slope[j] * slope[j];
+  }
+  if (!(square > 0)) return 0;
+  for (size_t k = 0; k < s->joints; k++) {
+    const size_t j = s->path[k];
+    const double to = s->at[j] + change / square * slope[j];
+    s->at[j] = nsvcd__max(low[k], nsvcd__min(high[k], to));
+  }
+  return 1;
+}
+
 // From the configuration span.at on, down the slope of the distance until the parts meet (sign -1),
 // or up until they do not (1).
 static void nsvcd__follow_slope(nsvcd__ranging *r, double sign) {
   nsvcd__span *s = &r->span;
-  nsvcd_checker *c = s->checker;
-  const nsvcd_proximity_options o = {NSVCD_MAX_COORDINATE / 4, 1e-3f, 0.1f, r->options.work};
-  const double clearance = (double)r->options.clearance;
-  for (size_t n = 0; n < NSVCD__SLOPE_STEPS && !nsvcd__range_is_over(r); n++) {
-    nsvcd_proximity nearest;
-    double square = 0;
-    s->scene.pairs = c->own.pairs = s->pairs;
-    nsvcd__follow(&s->scene, 1, s->at);
-    c->surfaces = 0;
-    c->result = NSVCD_OK;
-    nsvcd__place_links(c, s->at, c->at);
-    nsvcd__place_sample(c, c->at, 0);
-    if (!nsvcd__proximity_of(c, 0, &o, &nearest)) return;
-    const double apart =
-        nearest.verdict == NSVCD_HIT ? -(double)nearest.depth : (double)nearest.distance.low;
-    for (size_t k = 0; k < s->joints; k++)
-      square += nearest.slope[s->path[k]] * nearest.slope[s->path[k]];
-    if (!(square > 0)) return;
-    const double step = fabs(apart - clearance) + 1e-3;
-    for (size_t k = 0; k < s->joints; k++) {
-      double low, high;
-      const size_t j = s->path[k];
-      nsvcd__values_of(&s->scene.joints[j], &low, &high);
-      const double to = s->at[j] + sign * step / square * nearest.slope[j];
-      s->at[j] = nsvcd__max(low, nsvcd__min(high, to));
+  double last[NSVCD_MAX_JOINTS];
+  double room, next_room;
+  double step = 1;
+  nsvcd_proximity nearest, next;
+  if (!nsvcd__room_here(r, 1, &nearest, &room)) return;
+  for (size_t n = 0; n < NSVCD__SLOPE_STEPS && step > NSVCD__LEAST_STEP; n++) {
+    memcpy(last, s->at, sizeof last);
+    if (nsvcd__range_is_over(r) ||
+        !nsvcd__move_along(s, nearest.slope, sign * step * (fabs(room) + 1e-3)) ||
+        !nsvcd__room_here(r, room, &next, &next_room))
+      return;
+    if (sign * next_room > sign * room) {
+      nearest = next;
+      room = next_room;
+      step = nsvcd__min(1, 2 * step);
+      if (!(sign * room < 0)) (void)nsvcd__note_here(r);
+    } else {
+      memcpy(s->at, last, sizeof last);
+      step *= 0.25;
     }
-    (void)nsvcd__note_here(r);
+  }
+}
+
+// ---- draws
+
+// Puts span.at at random values; or those that are bits of `corner` at their least or greatest.
+static void nsvcd__draw_values(nsvcd__ranging *r, size_t corner) {
+  nsvcd__span *s = &r->span;
+  for (size_t k = 0; k < s->joints; k++) {
+    double low, high;
+    nsvcd__values_of(&s->scene.joints[s->path[k]], &low, &high);
+    const double random = nsvcd__random(&r->random);
+    const double end = s->joints < 5 ? (double)(corner >> k & 1) : random < 0.5;
+    s->at[s->path[k]] = low + (corner == NSVCD_NONE ? random : end) * (high - low);
   }
 }
 
 // Tries corners of the ranges, and then configurations drawn at random.
 static void nsvcd__try_draws(nsvcd__ranging *r) {
-  nsvcd__span *s = &r->span;
-  const size_t corners = s->joints < 5 ? (size_t)1 << s->joints : 32;
+  const size_t joints = r->span.joints;
+  const size_t corners = joints < 5 ? (size_t)1 << joints : 32;
   for (size_t n = 0; n < NSVCD__RANGE_DRAWS && !nsvcd__range_is_over(r); n++) {
-    for (size_t k = 0; k < s->joints; k++) {
-      double low, high;
-      nsvcd__values_of(&s->scene.joints[s->path[k]], &low, &high);
-      const double random = nsvcd__random(&r->random);
-      const double end = s->joints < 5 ? (double)(n >> k & 1) : random < 0.5;
-      s->at[s->path[k]] = low + (n < corners ? end : random) * (high - low);
-    }
+    nsvcd__draw_values(r, n < corners ? n : NSVCD_NONE);
     (void)nsvcd__note_here(r);
   }
 }
+
+// Follows slopes from configurations drawn at random.
+static void nsvcd__try_slopes(nsvcd__ranging *r, size_t count, double sign) {
+  for (size_t n = 0; n < count && !nsvcd__range_is_over(r); n++) {
+    nsvcd__draw_values(r, NSVCD_NONE);
+    nsvcd__follow_slope(r, sign);
+  }
+}
+
+// ---------------------------------------------------------------------------------- robot/partings
+// In: two parts, and a box of values of the joints between them. Out: does a plane part them in all
+// of it?
+//
+// THE BOUND. The plane is fixed in some link between the two: joints up to there move the one part,
+// those beyond it the other. From the centre of the box joints may change one after another, the
+// outer ones first, so that each still has the axis that it has at the centre. A point p that outer
+// joints have displaced by m or less is then turned by w about an axis through f, of direction x.
+// Its way is across x. So along the plane's normal n, of which c is across x, it is no more than
+//   sin |w| |n . (x, p' - f)| + (1 - cos w) c r  <=  h (|n . (x, p - f)| + c m) + h^2 c r / 2
+// where (,) is the vector product, p' the displaced point, r its distance from the axis, and h the
+// most that |w| is; nor is it more than c times the chord 2 r sin(h / 2), h up to pi. The chord is
+// added to m for joints further in. One that slides moves the point by h |n . x|. For a given
+// configuration n . p is linear in p, so that of all points of a box about a part a corner comes
+// farthest.
+// Source: this library.
+
+// of all lengths: errors of frames in double
+#define NSVCD__PARTING_ROUNDING 1e-9
+
+// A plane, fixed behind so many joints, counted from the first part.
+typedef struct nsvcd__parting {
+  nsvcd__d3 normal;
+  size_t fixed;
+  // metres, at least: how far apart the two are along it in all of the box, and at its centre
+  double apart, centre;
+} nsvcd__parting;
+
+// By how much one joint of the way can bring a point nearer along a direction, at most. moved: by
+// how much joints further out can displace it, to which this one is added.
+static double nsvcd__loss_along(const nsvcd__span *s, const nsvcd__links *at, size_t k,
+                                nsvcd__d3 p, nsvcd__d3 along, double *moved) {
+  const size_t j = s->way[k];
+  const nsvcd__d3 axis = at->axes[j];
+  const double h = s->reach[k];
+  const double before = *moved;
+  if (nsvcd__slides(s->checker, j)) {
+    *moved += h;
+    return h * fabs(nsvcd__d3_dot(along, axis));
+  }
+  const nsvcd__d3 off = nsvcd__d3_cross(axis, nsvcd__d3_sub(p, at->frames[j + 1].position));
+  const double r = nsvcd__d3_norm(off) + before;
+  const double chord = 2 * r * s->sines[k];
+  const double across = nsvcd__d3_norm(nsvcd__d3_cross(along, axis));
+  const double way = h * (fabs(nsvcd__d3_dot(along, off)) + across * (before + 0.5 * h * r));
+  *moved += chord;
+  return nsvcd__min(way, across * chord);
+}
+
+static nsvcd__d3 nsvcd__corner_of(const nsvcd__rider *rider, size_t corner) {
+  nsvcd__d3 p = rider->middle;
+  for (size_t k = 0; k < 3; k++)
+    p = nsvcd__d3_fma(corner >> k & 1 ? 1 : -1, rider->sides[k], p);
+  return p;
+}
+
+// The least that points of a part are along a direction, in all of the box: least[n] if the plane
+// is fixed behind n joints, counted from the part.
+static void nsvcd__least_along(const nsvcd__span *s, const nsvcd__links *at,
+                               const nsvcd__rider *rider, size_t side, nsvcd__d3 along,
+                               double *least) {
+  for (size_t corner = 0; corner < 8; corner++) {
+    const nsvcd__d3 p = nsvcd__corner_of(rider, corner);
+    double moved = 0;
+    double value = nsvcd__d3_dot(along, p);
+    for (size_t n = 0; n <= s->way_count; n++) {
+      least[n] = corner ? nsvcd__min(least[n], value) : value;
+      if (n == s->way_count) break;
+      const size_t k = side ? s->way_count - 1 - n : n;
+      value -= nsvcd__loss_along(s, at, k, p, along, &moved);
+    }
+  }
+}
+
+// Of all planes with this normal, of length 1 or less, the one that parts the two by most.
+static nsvcd__parting nsvcd__parting_along(const nsvcd__span *s, const nsvcd__links *at,
+                                           const nsvcd__rider *riders, nsvcd__d3 normal) {
+  double least[2][NSVCD_MAX_JOINTS + 1];
+  nsvcd__parting out = {normal, 0, -HUGE_VAL, 0};
+  for (size_t side = 0; side < 2; side++)
+    nsvcd__least_along(s, at, &riders[side], side, nsvcd__d3_scale(normal, side ? -1 : 1),
+                       least[side]);
+  for (size_t n = 0; n <= s->way_count; n++) {
+    const double apart = least[0][n] + least[1][s->way_count - n];
+    if (!(apart > out.apart)) continue;
+    out.apart = apart;
+    out.fixed = n;
+  }
+  const double sizes = 1 + fabs(least[0][0]) + fabs(least[1][0]);
+  out.apart -= NSVCD__PARTING_ROUNDING * sizes;
+  out.centre = least[0][0] + least[1][0];
+  return out;
+}
+
+// A plane that parts the two by more than the clearance in all of the box; or the best of those
+// that are tried. Their normals are the direction from middle to middle, those of the sides of both
+// boxes, and those of the joints' axes, along which these move nothing.
+static nsvcd__parting nsvcd__best_parting(const nsvcd__span *s, const nsvcd__links *at,
+                                          const nsvcd__rider *riders, double clearance) {
+  const nsvcd__d3 between = nsvcd__d3_sub(riders[0].middle, riders[1].middle);
+  nsvcd__parting best = {between, 0, -HUGE_VAL, -HUGE_VAL};
+  for (size_t n = 0; n < 7 + s->way_count && !(best.apart > clearance); n++) {
+    nsvcd__d3 normal = between;
+    if (n > 0 && n < 7) normal = riders[(n - 1) / 3].sides[(n - 1) % 3];
+    if (n >= 7) normal = at->axes[s->way[n - 7]];
+    const double length = nsvcd__d3_norm(normal) * (1 + 1e-12);
+    if (!(length > 0)) continue;
+    const double sign = nsvcd__d3_dot(normal, between) < 0 ? -1 : 1;
+    const nsvcd__parting found =
+        nsvcd__parting_along(s, at, riders, nsvcd__d3_scale(normal, sign / length));
+    if (found.apart > best.apart) best = found;
+  }
+  return best;
+}
+
+// Metres, of each joint of the path: by how much it can bring the two nearer along a parting.
+static void nsvcd__losses_of(const nsvcd__span *s, const nsvcd__links *at,
+                             const nsvcd__rider *riders, const nsvcd__parting *parting,
+                             double *losses) {
+  for (size_t k = 0; k < s->joints; k++) losses[k] = 0;
+  for (size_t side = 0; side < 2; side++) {
+    const size_t count = side ? s->way_count - parting->fixed : parting->fixed;
+    for (size_t corner = 0; corner < 8; corner++) {
+      const nsvcd__d3 p = nsvcd__corner_of(&riders[side], corner);
+      double moved = 0;
+      for (size_t n = 0; n < count; n++) {
+        const size_t k = side ? s->way_count - 1 - n : n;
+        double *loss = &losses[s->drivers[k]];
+        *loss = nsvcd__max(*loss, nsvcd__loss_along(s, at, k, p, parting->normal, &moved));
+      }
+    }
+  }
+}
+
+// ------------------------------------------------------------------------------------ robot/ranges
+// In: two parts of a robot. Out: do they meet never, always or sometimes, over all values of the
+// joints between them?
+//
+// Some configurations are tried first (robot/meetings.h). If the parts meet in some and not in
+// others, that is the answer. If they meet in none, boxes of values are proven to be free; if in
+// all, to be such that a point of one part stays inside of the other:
+//
+//   free   a plane that parts the two (robot/partings.h); or a sweep along one joint of the box,
+//          with all that the other joints can move a point as a clearance (robot/spans.h)
+//   hit    a point inside of both parts rides on one of them. Along the same sweep, with the same
+//          clearance, it does not meet the surface of the other part: so it stays inside of it. Two
+//          solids that have a point in common meet: either their surfaces do, or a component of one
+//          is inside of the other
+//
+// A box that is neither is cut in two, along the joint that moves points farthest; or, where the
+// best plane is nearer to being enough than the sweep, that brings them nearest along its normal.
+
+// the default; and of a box, beside its questions
+#define NSVCD__RANGE_UNITS 4000000
+#define NSVCD__BOX_UNITS 10
+// boxes that are kept. While more than half of these are left, the newest is taken first, so that
+// they are not too many
+#define NSVCD__KEPT_BOXES 4096
+// boxes that are given up before the search is
+#define NSVCD__MOST_DROPPED 64
+// the first boxes that fail, and every so many later, have the slope followed
+#define NSVCD__FIRST_SLOPES 24
+#define NSVCD__NEXT_SLOPES 64
+// metres: a box in which points move by less is not cut
+#define NSVCD__LEAST_TRAVEL 2e-5
+// the share of the joint that is swept along, when a box is cut
+#define NSVCD__SWEPT_SHARE 0.25
+// points on each axis, and others, that are tried for a probe
+#define NSVCD__AXIS_POINTS 8
+#define NSVCD__OTHER_POINTS 32
+// units for a question about a probe in one configuration
+#define NSVCD__PROBE_WORK 20000
 
 // ---- boxes
 
@@ -5711,22 +5993,28 @@ static double *nsvcd__box_at(nsvcd__ranging *r, size_t n) {
   return r->boxes + (r->first + n) % r->capacity * (2 * r->span.joints + 1);
 }
 
-// Cuts the box that was taken. The span's arms say along which joint.
-static void nsvcd__cut_box(nsvcd__ranging *r, const double *box, size_t along) {
+// Gives the box that was taken up.
+static void nsvcd__drop_box(nsvcd__ranging *r, const double *box) {
+  r->dropped += box[2 * r->span.joints];
+  r->dropped_count++;
+}
+
+// Cuts the box that was taken, along the joint of its path that moves most.
+static void nsvcd__cut_box(nsvcd__ranging *r, const double *box, const double *moved) {
   const nsvcd__span *s = &r->span;
   const size_t size = 2 * s->joints + 1;
   const double share = box[size - 1];
-  size_t joint = along;
-  double most = along == NSVCD_NONE ? 0 : NSVCD__SWEPT_SHARE * s->half[along] * s->arms[along];
-  for (size_t k = 0; k < s->joints; k++) {
-    const double moved = s->half[k] * s->arms[k];
-    if (k == along || !(moved > most)) continue;
-    most = moved;
-    joint = k;
-  }
+  size_t joint = 0;
+  for (size_t k = 1; k < s->joints; k++)
+    if (moved[k] > moved[joint]) joint = k;
   if (!(nsvcd__travel_but(s, NSVCD_NONE) > NSVCD__LEAST_TRAVEL)) {
     if (!r->answer.why) r->answer.why = NSVCD_WHY_TOO_NEAR;
-    r->dropped += share;
+    nsvcd__drop_box(r, box);
+    return;
+  }
+  if (r->count + 2 > r->capacity) {
+    r->answer.why = NSVCD_WHY_WORK;
+    nsvcd__drop_box(r, box);
     return;
   }
   for (size_t n = 0; n < 2; n++) {
@@ -5737,43 +6025,63 @@ static void nsvcd__cut_box(nsvcd__ranging *r, const double *box, size_t along) {
   }
 }
 
-// Follows the slope from the configuration that a check names, in the first boxes that fail.
+// Asks about the configuration that a check names, where the parts are near each other or not; from
+// there the slope is followed, if enough boxes failed.
 static void nsvcd__try_near(nsvcd__ranging *r, size_t along, const nsvcd_check_answer *found,
                             double sign) {
   nsvcd__span *s = &r->span;
   double centre[NSVCD_MAX_JOINTS];
-  const size_t bytes = s->scene.joint_count * sizeof *centre;
-  memcpy(centre, s->at, bytes);
+  const size_t failed = r->failed++;
+  const int is_followed = failed < NSVCD__FIRST_SLOPES || failed % NSVCD__NEXT_SLOPES == 0;
+  const int is_near = !(found->contact.gap > r->options.clearance);
+  if (!is_followed && sign < 0 && !is_near) return;
+  memcpy(centre, s->at, sizeof centre);
   if (along != NSVCD_NONE)
     s->at[s->path[along]] = s->low[along] + found->fraction * (s->high[along] - s->low[along]);
   (void)nsvcd__note_here(r);
-  if (r->failed++ < NSVCD__RANGE_SLOPES) nsvcd__follow_slope(r, sign);
-  memcpy(s->at, centre, bytes);
+  if (is_followed && !nsvcd__range_is_over(r)) nsvcd__follow_slope(r, sign);
+  memcpy(s->at, centre, sizeof centre);
 }
 
-// Is the box free, all of it? If not, it is cut.
+// Is the box free, all of it? If not, it is cut. Where its centre is too near, no sweep through it
+// is free.
 static void nsvcd__prove_free(nsvcd__ranging *r, const double *box) {
   nsvcd__span *s = &r->span;
   nsvcd_check_answer found;
   nsvcd__links at;
+  double moved[NSVCD_MAX_JOINTS];
   nsvcd__place_links(s->checker, s->at, &at);
-  const nsvcd__rider balls[2] = {nsvcd__rider_of(s->checker, &at, 0),
-                                 nsvcd__rider_of(s->checker, &at, 1)};
-  nsvcd__arms_between(s, &at, balls);
+  const nsvcd__rider riders[2] = {nsvcd__rider_of(s->checker, &at, 0),
+                                  nsvcd__rider_of(s->checker, &at, 1)};
+  nsvcd__arms_between(s, &at, riders);
+  r->units += NSVCD__BOX_UNITS;
+  const double kept = (double)r->options.clearance + s->beyond;
+  const nsvcd__parting parting = nsvcd__best_parting(s, &at, riders, kept);
+  if (parting.apart > kept) return;
   const size_t along = nsvcd__farthest_joint(s);
   const double travel = nsvcd__travel_but(s, along);
   const double clearance = (double)r->options.clearance + travel;
-  if (nsvcd__note_here(r) == NSVCD_HIT || r->result) return;
-  r->result = nsvcd__ask_span(s, 0, along, clearance, &r->options, &found);
-  if (r->result || found.verdict == NSVCD_FREE) return;
-  if (found.verdict == NSVCD_HIT) nsvcd__try_near(r, along, &found, -1);
+  size_t asked = NSVCD_NONE;
+  if (nsvcd__ask_range(r, 0, asked, clearance, &found) == NSVCD_FREE) {
+    asked = along;
+    if (nsvcd__ask_range(r, 0, asked, clearance, &found) == NSVCD_FREE) return;
+  }
+  if (r->result) return;
+  if (found.verdict == NSVCD_HIT) nsvcd__try_near(r, asked, &found, -1);
   if (travel > 0) {
-    nsvcd__cut_box(r, box, along);
+    for (size_t k = 0; k < s->joints; k++) moved[k] = s->half[k] * s->arms[k];
+    moved[along] *= NSVCD__SWEPT_SHARE;
+    // by how much of the room that there is for it either bound is too much
+    const double room =
+        nsvcd__max((double)found.contact.gap - (double)r->options.clearance, 0);
+    if ((parting.centre - parting.apart) * room < travel * (parting.centre - kept))
+      nsvcd__losses_of(s, &at, riders, &parting, moved);
+    nsvcd__cut_box(r, box, moved);
     return;
   }
   // no more can be told of it
-  r->answer.why = found.why;
-  r->dropped += box[2 * s->joints];
+  r->answer.why = found.why ? found.why : NSVCD_WHY_TOO_NEAR;
+  nsvcd__drop_box(r, box);
 }
 
 // ---- probes
@@ -5820,11 +6128,17 @@ static int nsvcd__is_common_point(nsvcd__span *s, const nsvcd__links *at, double
 
 // The span's arms for a probe, which has been put in its place.
 static void nsvcd__arms_of_probe(nsvcd__span *s, const nsvcd__links *at, size_t side) {
-  nsvcd__rider balls[2];
-  balls[side] = nsvcd__rider_of(s->checker, at, 2);
-  balls[side].radius = 2 * s->probe_extent;
-  balls[!side] = nsvcd__rider_of(s->checker, at, !side);
-  nsvcd__arms_between(s, at, balls);
+  nsvcd__rider riders[2];
+  riders[side] = nsvcd__rider_of(s->checker, at, 2);
+  const double radius = 2 * s->probe_extent;
+  riders[side].radius = radius;
+  riders[side].middle = riders[side].centre;
+  for (size_t k = 0; k < 3; k++) {
+    riders[side].sides[k] = nsvcd__d3_of(0, 0, 0);
+    nsvcd__d3_set_axis(&riders[side].sides[k], k, radius);
+  }
+  riders[!side] = nsvcd__rider_of(s->checker, at, !side);
+  nsvcd__arms_between(s, at, riders);
 }
 
 // Keeps a probe at a point of the world, if it is in both parts and among the best.
@@ -5903,8 +6217,8 @@ static int nsvcd__stays_inside(nsvcd__ranging *r, const nsvcd__links *at,
   nsvcd__arms_of_probe(s, at, (size_t)probe->side);
   const size_t along = nsvcd__farthest_joint(s);
   const double travel = nsvcd__travel_but(s, along);
-  r->result = nsvcd__ask_span(s, 1, along, travel + room, &r->options, &found);
-  if (r->result || found.verdict == NSVCD_FREE) return !r->result;
+  if (nsvcd__ask_range(r, 1, along, travel + room, &found) == NSVCD_FREE) return 1;
+  if (r->result) return 0;
   if (found.verdict == NSVCD_HIT && !nsvcd__range_is_over(r))
     nsvcd__try_near(r, along, &found, 1);
   return 0;
@@ -5913,6 +6227,7 @@ static int nsvcd__stays_inside(nsvcd__ranging *r, const nsvcd__links *at,
 // Do the parts meet everywhere in the box? If that is not known, it is cut.
 static void nsvcd__prove_hit(nsvcd__ranging *r, const double *box) {
   nsvcd__span *s = &r->span;
+  double moved[NSVCD_MAX_JOINTS];
   nsvcd__links at;
   nsvcd__place_links(s->checker, s->at, &at);
   if (nsvcd__note_here(r) == NSVCD_FREE || r->result) return;
@@ -5922,10 +6237,11 @@ static void nsvcd__prove_hit(nsvcd__ranging *r, const double *box) {
       if (nsvcd__stays_inside(r, &at, &r->probes[n]) || nsvcd__range_is_over(r)) return;
     }
   }
-  const nsvcd__rider balls[2] = {nsvcd__rider_of(s->checker, &at, 0),
-                                 nsvcd__rider_of(s->checker, &at, 1)};
-  if (!r->probe_count) nsvcd__arms_between(s, &at, balls);
-  nsvcd__cut_box(r, box, NSVCD_NONE);
+  const nsvcd__rider riders[2] = {nsvcd__rider_of(s->checker, &at, 0),
+                                  nsvcd__rider_of(s->checker, &at, 1)};
+  if (!r->probe_count) nsvcd__arms_between(s, &at, riders);
+  for (size_t k = 0; k < s->joints; k++) moved[k] = s->half[k] * s->arms[k];
+  nsvcd__cut_box(r, box, moved);
 }
 
 // ---- the search
@@ -5942,16 +6258,18 @@ static int nsvcd__search_boxes(nsvcd__ranging *r, int is_free) {
   r->first = 0;
   r->count = 1;
   r->dropped = 0;
+  r->dropped_count = 0;
   r->failed = 0;
   r->answer.open = 1;
   r->answer.why = NSVCD_WHY_NOTHING;
-  while (r->count > 0 && !nsvcd__range_is_over(r)) {
+  while (r->count > 0 && r->dropped_count < NSVCD__MOST_DROPPED && !nsvcd__range_is_over(r)) {
     if (r->answer.boxes == r->options.boxes) {
       r->answer.why = NSVCD_WHY_WORK;
       break;
     }
-    memcpy(box, nsvcd__box_at(r, 0), size * sizeof *box);
-    r->first = (r->first + 1) % r->capacity;
+    const int is_oldest = r->count <= r->capacity / 2;
+    memcpy(box, nsvcd__box_at(r, is_oldest ? 0 : r->count - 1), size * sizeof *box);
+    r->first = (r->first + (size_t)is_oldest) % r->capacity;
     r->count--;
     r->answer.boxes++;
     nsvcd__take_box(s, box);
@@ -5964,12 +6282,32 @@ static int nsvcd__search_boxes(nsvcd__ranging *r, int is_free) {
   return !r->result && r->count == 0 && !(r->dropped > 0);
 }
 
+// Can anything be proven to be inside of a part?
+static int nsvcd__may_enclose(const nsvcd_part *part) {
+  const nsvcd_body_facts facts = nsvcd_body_describe(part->body);
+  return !facts.open && facts.open_components < facts.components;
+}
+
+// The parts meet in all configurations that were tried: do they in all?
+static void nsvcd__find_always(nsvcd__ranging *r) {
+  nsvcd_range_answer *a = &r->answer;
+  const nsvcd_part *parts = r->span.parts;
+  if (nsvcd__may_enclose(&parts[0]) && nsvcd__may_enclose(&parts[1])) {
+    if (nsvcd__search_boxes(r, 0)) a->meeting = NSVCD_MEETS_ALWAYS;
+    return;
+  }
+  nsvcd__try_slopes(r, NSVCD__SLOPES_UP, 1);
+  a->open = 1;
+  if (!a->why) a->why = NSVCD_WHY_OPEN;
+}
+
 static void nsvcd__find_range(nsvcd__ranging *r) {
   nsvcd_range_answer *a = &r->answer;
   nsvcd__try_draws(r);
-  if (!r->result && !a->has_hit && nsvcd__search_boxes(r, 1)) a->meeting = NSVCD_MEETS_NEVER;
-  if (!r->result && a->has_hit && !a->has_free && nsvcd__search_boxes(r, 0))
-    a->meeting = NSVCD_MEETS_ALWAYS;
+  // with few joints boxes are quicker
+  if (!a->has_hit && r->span.joints > 2) nsvcd__try_slopes(r, NSVCD__SLOPES_DOWN, -1);
+  if (!a->has_hit && nsvcd__search_boxes(r, 1)) a->meeting = NSVCD_MEETS_NEVER;
+  if (a->has_hit && !a->has_free) nsvcd__find_always(r);
   if (a->has_free && a->has_hit) a->meeting = NSVCD_MEETS_SOMETIMES;
   if (a->meeting == NSVCD_MEETS_UNKNOWN) return;
   a->why = NSVCD_WHY_NOTHING;
@@ -6003,8 +6341,9 @@ static nsvcd_result nsvcd__range_begin(const nsvcd_checker *c, nsvcd_body_pair p
   nsvcd_range_options *o = &r->options;
   if (!nsvcd__is_length(o->clearance)) return NSVCD_ERROR_CLEARANCE;
   if (o->boxes > NSVCD_MAX_BOXES) return NSVCD_ERROR_COUNT;
-  o->boxes = o->boxes ? o->boxes : NSVCD__RANGE_BOXES;
-  r->capacity = o->boxes + 1;
+  o->boxes = o->boxes ? o->boxes : NSVCD_MAX_BOXES;
+  o->units = o->units ? o->units : NSVCD__RANGE_UNITS;
+  r->capacity = o->boxes < NSVCD__KEPT_BOXES ? o->boxes + 1 : NSVCD__KEPT_BOXES;
   r->random = o->seed;
   nsvcd__span_begin(scene, pair, &r->span);
   r->answer.joints = r->span.joints;

@@ -1670,6 +1670,8 @@ typedef struct nsvcd__tally {
   size_t safe_by;
   float safe_time;
   nsvcd_pose safe;
+  // the contact that this body stops it at, if it has a normal
+  nsvcd_contact stop;
 } nsvcd__tally;
 
 static nsvcd__tally nsvcd__tally_of(const nsvcd__asker *q) {
@@ -1704,6 +1706,7 @@ static void nsvcd__tally_add(nsvcd__tally *t, size_t id, const nsvcd_answer *ans
   t->safe_by = id;
   t->safe_time = answer->safe.time;
   t->safe = answer->safe.a;
+  t->stop = answer->nearest;
 }
 
 // Asks about all bodies; HIT only until one is hit.
@@ -1975,6 +1978,9 @@ typedef struct nsvcd__hold {
   double lacks;
   // metres a second, along the normal: at least
   double least;
+  // what a unit impulse along the normal changes: the speed there, and the spin
+  double give;
+  nsvcd__d3 turn;
   // so far: along the normal, and across it
   double pushed;
   nsvcd__d3 rubbed;
@@ -2002,41 +2008,41 @@ static nsvcd__d3 nsvcd__speed_at(const nsvcd__thing *thing, nsvcd__d3 arm) {
   return nsvcd__d3_add(thing->linear, nsvcd__d3_cross(thing->angular, arm));
 }
 
-// The change of speed at an arm, along a direction, by a unit impulse there.
-static double nsvcd__give_of(const nsvcd__thing *thing, nsvcd__d3 arm, nsvcd__d3 along) {
+// The change of speed at an arm, along a direction, by a unit impulse there; *turn: of its spin.
+static double nsvcd__give_of(const nsvcd__thing *thing, nsvcd__d3 arm, nsvcd__d3 along,
+                             nsvcd__d3 *turn) {
   const nsvcd__d3 moment = nsvcd__d3_cross(arm, along);
-  return thing->inverse_mass + nsvcd__d3_dot(moment, nsvcd__spun_by(thing, moment));
+  *turn = nsvcd__spun_by(thing, moment);
+  return thing->inverse_mass + nsvcd__d3_dot(moment, *turn);
 }
 
-static void nsvcd__take_impulse(nsvcd__thing *thing, nsvcd__d3 arm, nsvcd__d3 impulse) {
-  const nsvcd__d3 moment = nsvcd__d3_cross(arm, impulse);
-  thing->linear = nsvcd__d3_fma(thing->inverse_mass, impulse, thing->linear);
-  thing->angular = nsvcd__d3_add(thing->angular, nsvcd__spun_by(thing, moment));
-}
-
-// soft: a fraction of what the contact gives way by to a unit impulse, by which it gives way besides
-// Returns by how much the impulse along the normal has changed.
+// soft: a fraction of what the contact gives way by to a unit impulse, by which it gives way
+// besides. Returns by how much the impulse along the normal has changed.
 static double nsvcd__respond_at(nsvcd__thing *thing, nsvcd__hold *hold, double soft) {
   const nsvcd__d3 speed = nsvcd__d3_sub(nsvcd__speed_at(thing, hold->arm), hold->speed);
   const double along = nsvcd__d3_dot(speed, hold->normal);
-  const double give = nsvcd__give_of(thing, hold->arm, hold->normal);
   const double before = hold->pushed;
-  const double lacks = hold->least - along - soft * give * before;
-  hold->pushed = nsvcd__max(before + lacks / (give + soft * give), 0);
+  const double lacks = hold->least - along - soft * hold->give * before;
+  hold->pushed = nsvcd__max(before + lacks / (hold->give + soft * hold->give), 0);
   const double more = hold->pushed - before;
-  nsvcd__take_impulse(thing, hold->arm, nsvcd__d3_scale(hold->normal, more));
-  if (!(thing->friction > 0)) return fabs(more);
+  thing->linear = nsvcd__d3_fma(more * thing->inverse_mass, hold->normal, thing->linear);
+  thing->angular = nsvcd__d3_fma(more, hold->turn, thing->angular);
+  if (!(thing->friction > 0) || !(before + hold->pushed > 0)) return fabs(more);
   const nsvcd__d3 now = nsvcd__d3_sub(nsvcd__speed_at(thing, hold->arm), hold->speed);
   const nsvcd__d3 aside = nsvcd__d3_fma(-nsvcd__d3_dot(now, hold->normal), hold->normal, now);
   const double slip = nsvcd__d3_norm(aside);
   if (!(slip > 1e-12)) return fabs(more);
+  nsvcd__d3 turn;
   const nsvcd__d3 u = nsvcd__d3_scale(aside, 1 / slip);
-  const double across = nsvcd__give_of(thing, hold->arm, u);
+  const double across = nsvcd__give_of(thing, hold->arm, u, &turn);
   const double most = thing->friction * hold->pushed;
   nsvcd__d3 rubbed = nsvcd__d3_fma(-slip / across, u, hold->rubbed);
   const double length = nsvcd__d3_norm(rubbed);
   if (length > most) rubbed = nsvcd__d3_scale(rubbed, most / length);
-  nsvcd__take_impulse(thing, hold->arm, nsvcd__d3_sub(rubbed, hold->rubbed));
+  const nsvcd__d3 rubs = nsvcd__d3_sub(rubbed, hold->rubbed);
+  thing->linear = nsvcd__d3_fma(thing->inverse_mass, rubs, thing->linear);
+  thing->angular =
+      nsvcd__d3_add(thing->angular, nsvcd__spun_by(thing, nsvcd__d3_cross(hold->arm, rubs)));
   hold->rubbed = rubbed;
   return fabs(more);
 }
@@ -2045,6 +2051,8 @@ static void nsvcd__respond(nsvcd__thing *thing, nsvcd__hold *holds, size_t count
                            double soft) {
   double most = 0;
   double change = 1;
+  for (size_t k = 0; k < count; k++)
+    holds[k].give = nsvcd__give_of(thing, holds[k].arm, holds[k].normal, &holds[k].turn);
   for (int round = 0; round < NSVCD__IMPULSE_ROUNDS && change > NSVCD__IMPULSE_SAME * most;
        round++) {
     change = 0;
@@ -2089,8 +2097,11 @@ static nsvcd__thing nsvcd__leaving(const nsvcd__thing *thing, const nsvcd__hold 
 #define NSVCD__USUAL_CLEARANCE 0.005
 #define NSVCD__USUAL_ROUNDS 4
 #define NSVCD__USUAL_SLOPE 0.7
+// of the margin: how exact stops are
+#define NSVCD__STOPS_WITHIN 0.05
 // of the margin: a way in which no point goes farther is none for what rubs against something
-#define NSVCD__STILL 0.02
+#define NSVCD__STILL 0.05
+#define NSVCD__MOST_STOPS 4
 // radians: the most that a body turns in a way
 #define NSVCD__MOST_TURN 2.0
 
@@ -2114,6 +2125,9 @@ typedef struct nsvcd__slide {
   size_t met;
   // a character's: of its speed, that is left for the rest of the frame
   double pace;
+  // what has stopped it in this frame: contacts that a look may leave out, where many are
+  size_t stop_count;
+  nsvcd_world_contact stops[NSVCD__MOST_STOPS];
   // what pushed in rounds before, and then all that there is at the pose now
   size_t kept, contact_count;
   nsvcd_world_contact contacts[NSVCD_WORLD_CONTACTS];
@@ -2154,9 +2168,12 @@ static void nsvcd__slide_look(nsvcd__slide *s) {
   for (size_t k = 0; k < s->contact_count; k++)
     if (s->contacts[k].impulse > 0) s->contacts[kept++] = s->contacts[k];
   s->kept = kept < NSVCD_WORLD_CONTACTS / 2 ? kept : NSVCD_WORLD_CONTACTS / 2;
-  const size_t room = NSVCD_WORLD_CONTACTS - s->kept;
-  s->contact_count = s->kept + nsvcd__contacts_at(&s->ask, &s->pose, 1 - s->left, within, room,
-                                                  s->contacts + s->kept, room);
+  const size_t room = NSVCD_WORLD_CONTACTS - s->kept - s->stop_count;
+  memcpy(s->contacts + s->kept, s->stops, s->stop_count * sizeof *s->stops);
+  nsvcd_world_contact *found = s->contacts + s->kept + s->stop_count;
+  s->contact_count =
+      s->kept + s->stop_count +
+      nsvcd__contacts_at(&s->ask, &s->pose, 1 - s->left, within, room, found, room);
   s->ground = NULL;
   for (size_t k = s->kept; k < s->contact_count; k++) {
     const nsvcd_contact *c = &s->contacts[k].contact;
@@ -2222,6 +2239,13 @@ static double nsvcd__go(nsvcd__slide *s, const nsvcd_pose *to, int at_once) {
   if (s->ask.result) return 0;
   s->met = t.first;
   s->pose = t.safe;
+  const float *n = t.stop.normal;
+  if (t.safe_by && n[0] * n[0] + n[1] * n[1] + n[2] * n[2] > 0.5f && !at_once &&
+      s->stop_count < NSVCD__MOST_STOPS) {
+    s->stops[s->stop_count].body = t.safe_by;
+    s->stops[s->stop_count].impulse = 0;
+    s->stops[s->stop_count++].contact = t.stop;
+  }
   if (!at_once) s->left *= 1 - (double)t.safe_time;
   return (double)t.safe_time;
 }
@@ -2389,7 +2413,7 @@ static nsvcd_result nsvcd__slide_begin(const nsvcd_world *world, size_t id,
   s->up = nsvcd__d3_load(given->up);
   s->slope = given->slope > 0 ? (double)given->slope : NSVCD__USUAL_SLOPE;
   s->ask.question.clearance = (float)s->clearance;
-  s->ask.question.to = (float)(0.25 * s->margin);
+  s->ask.question.to = (float)(NSVCD__STOPS_WITHIN * s->margin);
   nsvcd__thing *thing = &s->thing;
   const nsvcd__dpose pose = nsvcd__dpose_of(&s->pose);
   const float *inertia = given->inertia;

@@ -95,6 +95,8 @@ extern "C" {
 #include "robot/cholesky.h"        // linear equations
 #include "robot/reach.h"           // configurations that have a tool at a target
 #include "robot/spans.h"           // two parts, and the joints between them
+#include "robot/meetings.h"        // configurations in which two parts meet, and do not
+#include "robot/partings.h"        // does a plane part two parts in a box of values?
 #include "robot/ranges.h"          // do two parts meet never, always or sometimes?
 #include "robot/blends.h"  // from one state to another, within limits of speed and acceleration
 #include "robot/smooth.h"  // a path, timed, then smooth

@@ -1089,6 +1089,28 @@ not_a_gripper 6 "a leader: 'l'" 'a joint mimics itself, two, or one' 'mimic r l 
 not_a_gripper 5 "MULTIPLIER is 0, or nearly: '0'" '' 'mimic r l 0 0\n' ''
 not_a_gripper 5 "not a finite number" '' 'mimic r l nan 0\n' ''
 not_a_gripper 12 'a mimic after the first scene' 'a line is not one' '' "$mimic"
+# Two pairs whose names differ only by where a dash is have certificates of their own, which end with --seconds.
+printf 'nsvcd-plans 1\njoint j world 0 0 0 0 0 0 1 0 0 1 revolute -0.5 0.5 1\n' >"$dir/dashes.txt"
+for body in 'a world box: 1 1 1' 'a-b world box: 1 1 1 pose 3 0 0 0 0 0 1' 'c j box: 1 1 1 pose 0 6 0 0 0 0 1' \
+  'b-c j box: 1 1 1 pose 0 -6 0 0 0 0 1'; do echo "body $body"; done >>"$dir/dashes.txt"
+mkdir "$dir/dashes"
+expect 0 '' build/svcd pairs "$dir/dashes.txt" --certificates "$dir/dashes"
+expect 0 '' build/verify --pairs "$dir/dashes.txt" "$dir/dashes"
+test "$(cut -f 1 "$dir/out" | tr '\n' ' ')" = 'a-c a-b%2dc a%2db-c a%2db-b%2dc ' || fail "pairs by name: $(cat "$dir/out")"
+expect 0 '' build/verify --pairs "$dir/dashes.txt" "$dir/dashes" --only 'a%2db-c'
+line '^a%2db-c	accepted'
+printf 'nsvcd-plans 1\njoint k world 0 0 0 0 0 0 1 0 0 1 revolute -3 3 1\njoint l k 1 0 0 0 0 0 1 0 0 1 revolute -3 3 1\n' >"$dir/long.txt"
+printf 'joint m l 1 0 0 0 0 0 1 0 0 1 revolute -3 3 1\nbody post world box: 0.1 0.1 0.1 pose 2.454 0 0 0 0 0 1\n' >>"$dir/long.txt"
+printf 'body hand m box: 0.8 0.1 0.1\n' >>"$dir/long.txt"
+expect 1 'post-hand.cert: not written: for want of --seconds' build/svcd pairs "$dir/long.txt" --certificates "$dir/dashes" --seconds 0.5
+# An obstacle below a plan is one of the scene's: for svcd as for verify.
+gripper "$mimic" "${plans}obstacle block box: 0.2 0.2 0.2 0.9 0 0 0 0 0 1\n" >"$dir/late.txt"
+expect 0 '' build/svcd plan "$dir/late.txt" --certificates "$dir/certs"
+expect 0 '' build/verify "$dir/late.txt" "$dir/certs" --only over,close,on
+expect 1 '' build/verify "$dir/gripper.txt" "$dir/certs" --only over
+gripper "$mimic" "${plans}obstacle block box: 0.2 0.2 0.2 0.5 0 0 0 0 0 1\n" >"$dir/late.txt"
+expect 0 '' build/svcd plan "$dir/late.txt" --only over
+line '^over	goal'
 # What svcd pairs proves, as an SRDF; of two with a clearance, that they keep it.
 expect 2 'ends in .srdf' build/svcd pairs "$dir/gripper.txt" --srdf "$dir/x.xml"
 expect 1 'no folder' build/svcd pairs "$dir/gripper.txt" --srdf "$dir/no folder/x.srdf"

@@ -225,9 +225,21 @@ asks: nothing between the directions|area > NSVCD__SLIM * square) return 0;|area
 asks: few places looked at|if (tries == NSVCD__CONTACT_PAIRS|if (tries == 3
 ranges: a box without a joint|for (size_t k = 0; k < s->joints; k++) sum += k == without|for (size_t k = 1; k < s->joints; k++) sum += k == without
 ranges: a quarter of the width|s->half[k] = nsvcd__max(|s->half[k] = 0.25 * nsvcd__max(
-ranges: always without the travel|nsvcd__ask_span(s, 1, along, travel + room|nsvcd__ask_span(s, 1, along, 0 * travel + room
+ranges: always without the travel|nsvcd__ask_range(r, 1, along, travel + room|nsvcd__ask_range(r, 1, along, 0 * travel + room
 ranges: never without the travel|const double clearance = (double)r->options.clearance + travel;|const double clearance = (double)r->options.clearance;
-ranges: arms that nothing lengthens|across + balls[side].radius + moved;|across + balls[side].radius;
+ranges: arms that nothing lengthens|slides ? 1 : across + moved;|slides ? 1 : across;
+ranges: arms of half a box|1.000001 * (nsvcd__d3_axis(m->half, k) - m->round)|0.5 * (nsvcd__d3_axis(m->half, k) - m->round)
+ranges: arms to the middle|most = nsvcd__max(most, nsvcd__d3_dot(out, out));|most = nsvcd__d3_dot(middle, middle);
+ranges: planes without what bends|across * (before + 0.5 * h * r));|across * before);
+ranges: planes without what joints beyond displace|across * (before + 0.5 * h * r));|across * 0.5 * h * r);
+ranges: planes that joints displace once|*moved += chord;|*moved += 0 * chord;
+ranges: planes whose chords count less|return nsvcd__min(way, across * chord);|return nsvcd__min(way, across * across * chord);
+ranges: planes without the slope|h * (fabs(nsvcd__d3_dot(along, off)) + across|h * (0 * fabs(nsvcd__d3_dot(along, off)) + across
+ranges: planes that slide for nothing|return h * fabs(nsvcd__d3_dot(along, axis));|return 0;
+ranges: planes fixed twice|least[0][n] + least[1][s->way_count - n];|least[0][n] + least[1][n];
+ranges: planes of triangles alone|const double kept = (double)r->options.clearance + s->beyond;|const double kept = (double)r->options.clearance;
+ranges: planes without the clearance|const double kept = (double)r->options.clearance + s->beyond;|const double kept = s->beyond;
+ranges: boxes given up are proven|r->count == 0 \&\& !(r->dropped > 0)|r->count == 0
 robot: joints that do not bend|bend += step->bend[j] * arms[j];|(void)bend;
 robot: half the bend|bend += step->bend[j] * arms[j];|bend += 0.5 * step->bend[j] * arms[j];
 robot: joints that do not turn each other|(2 * outer + moved)|(moved)
@@ -314,18 +326,18 @@ postures: handed over from the world|const nsvcd__d3 offset = nsvcd__d3_sub(b->p
 verify: nothing is needed|if (!(gap > least \&\& last > least \&\& gap < VERIFY__BEYOND)) return 0;|if (!(gap > -1e9)) return 0;
 verify: parted at the start alone|if (!(gap > least \&\& last > least \&\& gap < VERIFY__BEYOND)) return 0;|if (at == r->instants \&\& !(gap > least)) return 0;
 verify: parted at the ends by one of them|if (!(gap > least \&\& last > least \&\& gap < VERIFY__BEYOND)) return 0;|if (!(gap > least)) return 0;
-verify: no strays|length * (r->clearance + margin) + stray;|length * (r->clearance + margin);
-verify: strays of a alone|+ verify__strays(r->b, \&v->b, \&at->b, at->stray_b, n, exact);|;
-verify: strays of b alone|stray = verify__strays(r->a, \&v->a, \&at->a, at->stray_a, n, exact) +|stray =
-verify: strays at the origin|* any + sqrt(verify__dot(across, across)) * turn;|* any;
-fits: half the distance from the axis|const double turn = stray[2] * verify__aside|const double turn = 0.5 * stray[2] * verify__aside
-fits: the axis of the body in the world|axis[i] = verify__dot(at->turn + 3 * i, stray + 3);|axis[i] = stray[3 + i] + 0 * at->turn[0];
-verify: no clearance|length * (r->clearance + margin) + stray|length * margin + stray
-verify: margins that are taken away|(r->clearance + margin) + stray;|(r->clearance - 1e4 * margin) + stray;
+verify: no deviations|length * (r->clearance + margin) + deviation;|length * (r->clearance + margin);
+verify: deviations of a alone|+ verify__deviation_along(r->b, \&v->b, \&at->b, at->deviation_b, n, exact);|;
+verify: deviations of b alone|deviation = verify__deviation_along(r->a, \&v->a, \&at->a, at->deviation_a, n, exact) +|deviation =
+verify: deviations at the origin|* any + sqrt(verify__dot(across, across)) * turn;|* any;
+fits: half the distance from the axis|const double turn = deviation[2] * verify__aside|const double turn = 0.5 * deviation[2] * verify__aside
+fits: the axis of the body in the world|axis[i] = verify__dot(at->turn + 3 * i, deviation + 3);|axis[i] = deviation[3 + i] + 0 * at->turn[0];
+verify: no clearance|length * (r->clearance + margin) + deviation|length * margin + deviation
+verify: margins that are taken away|(r->clearance + margin) + deviation;|(r->clearance - 1e4 * margin) + deviation;
 verify: places without what they are computed from|mover->reach = verify__max(mover->reach, far_off);|(void)far_off;
 verify: edges that all close|if (balance != 0) m->open|if (0) m->open
 verify: edges one way|? 1 : weld[m->indices[e]] > weld[to] ? -1 : 0;|? 1 : weld[m->indices[e]] > weld[to] ? 1 : 0;
-verify: half the stray|stray[2] = 0.1250001 * h * h;|stray[2] = 0.06 * h * h;
+verify: half the deviation|deviation[2] = 0.1250001 * h * h;|deviation[2] = 0.06 * h * h;
 verify: turns of half the angle|return 4 * atan2(|return 2 * atan2(
 verify: the first child alone|*node = child[1];\n  *(opens_a ? \&v[1].a : \&v[1].b) = child[0];|*node = child[0];\n  *(opens_a ? \&v[1].a : \&v[1].b) = child[0];
 verify: the second child alone|*node = child[1];|*node = child[1]; child[0] = child[1];
@@ -359,7 +371,7 @@ verify: no knots|t = verify__min(r->a->next(r->a->motion, t), r->b->next(r->b->m
 verify: knots of a alone|t = verify__min(r->a->next(r->a->motion, t), r->b->next(r->b->motion, t));|t = r->a->next(r->a->motion, t);
 verify: vertices at one place are two|weld[v] = same ? weld[m->part[i - 1]] : v;|weld[v] = v; (void)same;
 verify: quaternions of other sides|dot < 0 ? -sqrt(square_b) : sqrt(square_b)|sqrt(square_b)
-verify: joints without a bend|stray[k] += 0.1250001 * bend * arm[k];|
+verify: joints without a bend|deviation[k] += 0.1250001 * bend * arm[k];|
 verify: joints that do not turn each other|(2 * outer[k] + speed * arm[k])|(speed * arm[k])
 verify: joints without their own turn|(2 * outer[k] + speed * arm[k])|(2 * outer[k])
 verify: levers without offsets|outer[k] += speed * arm[k];\n    }\n    reach += verify__offset(joint->origin) +|outer[k] += speed * arm[k];\n    }\n    reach +=
@@ -419,7 +431,7 @@ checker: subnormal floats as 0|if (!((double)least > 0)) return|if (0) return
 checker: infinity as a number|return (bits \& 0x7fffffffu) <= limit;|return (bits \& 0x7fffffffu) <= limit \|\| bits == 0x7f800000u;
 checker: two motions|if (!why \&\& (a->clock != b->clock \|\| a->base != b->base))|if (!why \&\& a->base != b->base)
 checker: two bases|if (!why \&\& (a->clock != b->clock \|\| a->base != b->base))|if (!why \&\& a->clock != b->clock)
-checker: strays that nobody wrote|memset(at, 0, sizeof *at);|
+checker: deviations that nobody wrote|memset(at, 0, sizeof *at);|
 checker: a normal of 0|if (!(gap > least \&\& last > least \&\& gap < VERIFY__BEYOND)) return 0;|if (!(gap >= least \&\& last >= least \&\& gap < VERIFY__BEYOND)) return 0;
 checker: corners that there are not|\|\| of->mesh->part[out->a] == NSVCD_VERIFY_NONE)|)
 contacts: inner edges are sides|    if (same_moving \&\& nsvcd__goes_on(at_it.pair.fixed, points->on_b, normal, same)) return 1;|

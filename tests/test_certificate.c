@@ -484,16 +484,16 @@ static void certificates_refuse(void) {
 // checker places it where the oracle does. Of paths, then of what joints carry.
 static void cert_law_holds(const nsvcd_verify_mover *mover, double t0, double t1, const double *x,
                            const double (*true_at)[3], int count, double *tightest) {
-  double stray[6] = {0};
+  double deviation[6] = {0};
   double aside[3], axis[3];
   nsvcd_verify_place place;
-  mover->stray(mover->motion, t0, t1, stray);
+  mover->deviation(mover->motion, t0, t1, deviation);
   mover->place(mover->motion, t0, &place);
   const double scaled[3] = {mover->scale * x[0], mover->scale * x[1], mover->scale * x[2]};
-  oracle_cross(scaled, stray + 3, aside);
-  oracle_rotate(place.turn, stray + 3, axis);
-  const double any = stray[0] + stray[1] * oracle_length(scaled);
-  const double turn = stray[2] * oracle_length(aside);
+  oracle_cross(scaled, deviation + 3, aside);
+  oracle_rotate(place.turn, deviation + 3, axis);
+  const double any = deviation[0] + deviation[1] * oracle_length(scaled);
+  const double turn = deviation[2] * oracle_length(aside);
   for (int k = 0; k < count; k++) {
     const double fraction = (double)k / (count - 1);
     double off[3], placed_at[3];

@@ -274,9 +274,9 @@ static void lost_place(const void *motion, double t, nsvcd_verify_place *place) 
   if (lost < 3) place->at[lost] = bad_double(0, 0);
   if (lost >= 3 && lost < 12) place->turn[lost - 3] = bad_double(0, 0);
 }
-static void lost_stray(const void *motion, double t0, double t1, double *stray) {
-  verify__path_stray(motion, t0, t1, stray);
-  if (lost >= 12 && lost < 18) stray[lost - 12] = bad_double(0, 0);
+static void lost_deviation(const void *motion, double t0, double t1, double *deviation) {
+  verify__path_deviation(motion, t0, t1, deviation);
+  if (lost >= 12 && lost < 18) deviation[lost - 12] = bad_double(0, 0);
 }
 static void checker_refuses_to_place_nowhere(void) {
   for (lost = 0; lost <= 19; lost++) {
@@ -289,7 +289,7 @@ static void checker_refuses_to_place_nowhere(void) {
       begin(&w, s.movers, 0, NSVCD_VERIFY_FREE);
       put_plane(&w, -1, 0, 0);
       s.movers[n].place = lost_place;
-      s.movers[n].stray = lost_stray;
+      s.movers[n].deviation = lost_deviation;
       if (lost == 18) s.movers[n].reach = bad_double(0, 0);
       CHECK_EQ(check_bytes(s.movers, 0, &w, &report), lost == 19);
     }
@@ -439,7 +439,7 @@ static void checker_looks_at_triangles(void) {
 // ---- knots
 
 // A half turn, then rest, then a half turn: what a point does between two neighbouring doubles of
-// which one is a knot, the stray or the margin holds.
+// which one is a knot, the deviation or the margin holds.
 static void checker_knows_neighbours_of_knots(void) {
   static const float quarter[4] = {0, 0, 1, 0};
   scene s;
@@ -455,14 +455,15 @@ static void checker_knows_neighbours_of_knots(void) {
     const double keyframe = m->next(m->motion, 0);
     CHECK_NEAR(keyframe, timed ? 0.25 : 0.5, 1e-6);
     for (int steps = 1; steps < 6; steps++) {
-      double before = keyframe, stray[6] = {0};
+      double before = keyframe, deviation[6] = {0};
       for (int k = 0; k < steps; k++) before = nextafter(before, 0);
       CHECK_EQ(m->next(m->motion, before), keyframe);
-      m->stray(m->motion, before, keyframe, stray);
+      m->deviation(m->motion, before, keyframe, deviation);
       const double turn = 3.141592653589793 * (keyframe - before) / keyframe;
-      CHECK_GE(stray[0] + fmax(stray[1], stray[2]) + 1e-6 * VERIFY__MARGIN, turn * turn / 8);
-      m->stray(m->motion, 0, before, stray);
-      CHECK_GE(stray[2], 3.141592653589793 * 3.141592653589793 / 8);
+      CHECK_GE(deviation[0] + fmax(deviation[1], deviation[2]) + 1e-6 * VERIFY__MARGIN,
+               turn * turn / 8);
+      m->deviation(m->motion, 0, before, deviation);
+      CHECK_GE(deviation[2], 3.141592653589793 * 3.141592653589793 / 8);
     }
   }
 }

@@ -199,6 +199,34 @@ static void ranges_see_a_hole(void) {
   }
 }
 
+// A cube that slides along an arm leaves a block where the arm points out of it, and is longest: in no
+// corner of both ranges, nor in their middle.
+static void ranges_see_the_end_of_a_block(void) {
+  static robot r;
+  const nsvcd_body_pair pair = {0, 1};
+  shapes_mesh block;
+  memset(&block, 0, sizeof block);
+  shapes_box_at(&block, 0, 0, 0, 2, 4, 1);
+  robot_bare(&r, NSVCD_JOINT_REVOLUTE, 2, 2, 0.5);
+  r.joints[0].axis[2] = 1;
+  r.joints[1].kind = NSVCD_JOINT_PRISMATIC;
+  r.joints[1].axis[0] = 1;
+  r.joints[1].low = 0.95;
+  r.parts[0].body = body_of(&block, NULL);
+  r.parts[1].body = robot_shapes()[0].body;
+  r.parts[1].link = 2;
+  for (int n = 0; n < 2; n++) {
+    r.joints[1].high = n ? 1.045 : 1.0505;
+    robot_open(&r);
+    const nsvcd_range_answer a = range_of(&r, pair, 0, 0);
+    if (n == 0) CHECK(a.meeting != NSVCD_MEETS_ALWAYS);
+    if (n == 1) CHECK_EQ(a.meeting, NSVCD_MEETS_ALWAYS);
+    free(r.memory);
+  }
+  nsvcd_body_free(r.parts[0].body, NULL);
+  shapes_free(&block);
+}
+
 // A box that a joint slides past another one, which it meets in a narrow range of its values.
 static void ranges_narrow(void) {
   static robot r;
@@ -224,6 +252,157 @@ static void ranges_narrow(void) {
              parts ? NSVCD_MEETS_ALWAYS : NSVCD_MEETS_SOMETIMES);
     free(r.memory);
   }
+}
+
+// How far apart a plane has two parts at least, in a box of values, (2, joints between them); and how
+// far they are, of samples; NULL: not asked.
+static double parting_of(const robot *r, nsvcd_body_pair pair, const double *box, shapes_rng *rng,
+                         double *least) {
+  static nsvcd__span s;
+  nsvcd__links at;
+  nsvcd__span_begin(&r->scene, pair, &s);
+  const size_t size = nsvcd_checker_size(&s.scene);
+  void *memory = malloc(size);
+  CHECK_EQ(nsvcd_checker_open(&s.scene, memory, size, &s.checker), NSVCD_OK);
+  nsvcd__take_box(&s, box);
+  nsvcd__place_links(s.checker, s.at, &at);
+  const nsvcd__rider riders[2] = {nsvcd__rider_of(s.checker, &at, 0),
+                                  nsvcd__rider_of(s.checker, &at, 1)};
+  nsvcd__arms_between(&s, &at, riders);
+  const nsvcd__parting parting = nsvcd__best_parting(&s, &at, riders, 1e9);
+  if (least) *least = 10;
+  for (size_t n = 0; n < 300 && least && parting.apart > 0; n++) {
+    double q[NSVCD_MAX_JOINTS];
+    memcpy(q, s.at, sizeof q);
+    for (size_t k = 0; k < s.joints; k++) {
+      const double random = shapes_uniform(rng, 0, 1);
+      const double share = n % 2 ? random : random < 0.5;
+      q[s.path[k]] = s.low[k] + share * (s.high[k] - s.low[k]);
+    }
+    nsvcd__follow(&r->scene, 1, q);
+    *least = fmin(*least, robot_apart(r, &pair, q, 10));
+  }
+  free(memory);
+  return parting.apart - s.beyond;
+}
+
+// In all of a box of values two parts are as far apart as the plane that is said to part them makes
+// them.
+static void planes_part_no_less(void) {
+  static robot r;
+  shapes_rng rng = {23};
+  size_t told = 0;
+  size_t tight = 0;
+  for (size_t trial = 0; trial < check_many(120); trial++) {
+    double box[2 * NSVCD_MAX_JOINTS], least;
+    robot_random_of(&r, &rng, 2 + (size_t)shapes_pick(&rng, 5));
+    const nsvcd_body_pair pair = {0, (uint32_t)r.scene.joint_count - 1};
+    size_t way[NSVCD_MAX_JOINTS];
+    const size_t joints =
+        nsvcd__path_between(&r.scene, r.parts[pair.a].link, r.parts[pair.b].link, way);
+    const double wide = pow(10, shapes_uniform(&rng, -2, 0.2));
+    for (size_t k = 0; k < joints; k++) {
+      const double middle = shapes_uniform(&rng, -1, 1);
+      const double half = wide * shapes_uniform(&rng, 0, 1);
+      box[k] = middle - half;
+      box[joints + k] = middle + half;
+    }
+    const double apart = parting_of(&r, pair, box, &rng, &least);
+    CHECK(!(apart > 0) || least >= apart);
+    told += apart > 0;
+    tight += apart > 0.7 * least;
+  }
+  CHECK_GE(told, check_many(120) / 10);
+  CHECK_GE(tight, 2);
+}
+
+// An arm that is stretched away from a wall bends towards it: by (5 h^2) / 2 of its length if both of
+// its joints turn by h.
+static void planes_know_what_bends(void) {
+  static robot r;
+  const nsvcd_body_pair pair = {0, 1};
+  shapes_mesh wall;
+  memset(&wall, 0, sizeof wall);
+  shapes_box_at(&wall, -0.5, 0, 0, 1, 8, 1);
+  robot_bare(&r, NSVCD_JOINT_REVOLUTE, 2, 2, 1);
+  for (int j = 0; j < 2; j++) r.joints[j].axis[2] = 1;
+  r.joints[1].origin.position[0] = 1;
+  r.parts[0].body = body_of(&wall, NULL);
+  r.parts[1].body = robot_shapes()[0].body;
+  r.parts[1].scale = 0.01f;
+  r.parts[1].link = 2;
+  r.parts[1].pose.position[0] = 1;
+  r.parts[0].pose.position[0] = 1.4f;
+  robot_open(&r);
+  for (int n = 0; n < 4; n++) {
+    const double h = 0.05 * (n + 1);
+    const double box[4] = {-h, -h, h, h};
+    const double apart = parting_of(&r, pair, box, NULL, NULL);
+    // of the arm's end, a cube of 1 mm
+    const double truth = cos(h) + cos(2 * h) - 1.4;
+    CHECK(apart <= truth && apart > truth - 0.002 - 2 * h * h * h);
+  }
+  free(r.memory);
+  nsvcd_body_free(r.parts[0].body, NULL);
+  shapes_free(&wall);
+}
+
+// Rounded bodies reach beyond their triangles, and a body with a hole encloses nothing for certain.
+static void ranges_know_bodies(void) {
+  static robot r;
+  const nsvcd_body_pair pair = {0, 1};
+  const float half[3] = {0.05f, 0.05f, 0.05f};
+  shapes_mesh box;
+  robot_bare(&r, NSVCD_JOINT_PRISMATIC, 1, 2, 300);
+  r.joints[0].axis[1] = 1;
+  CHECK_EQ(nsvcd_encode_box(half, 0.02f, NULL, &r.parts[0].body), NSVCD_OK);
+  r.parts[1].body = r.parts[0].body;
+  r.parts[1].link = 1;
+  // one slides past the other; their triangles are 0.02 m inside of them
+  for (int n = 0; n < 2; n++) {
+    r.parts[1].pose.position[0] = n ? 0.101f : 0.099f;
+    robot_open(&r);
+    CHECK_EQ(range_of(&r, pair, 0, 0).meeting, n ? NSVCD_MEETS_NEVER : NSVCD_MEETS_SOMETIMES);
+    free(r.memory);
+  }
+  nsvcd_body_free(r.parts[0].body, NULL);
+  r.joints[0].low = -0.01;
+  r.joints[0].high = 0.01;
+  memset(&box, 0, sizeof box);
+  shapes_box_at(&box, 0, 0, 0, 0.1, 0.1, 0.1);
+  for (int n = 0; n < 2; n++) {
+    box.triangles -= (size_t)n;
+    r.parts[0].body = r.parts[1].body = body_of(&box, NULL);
+    r.parts[1].pose.position[0] = 0.03f;
+    robot_open(&r);
+    const nsvcd_range_answer a = range_of(&r, pair, 0, 0);
+    CHECK_EQ(a.meeting, n ? NSVCD_MEETS_UNKNOWN : NSVCD_MEETS_ALWAYS);
+    CHECK_EQ(a.why, n ? NSVCD_WHY_OPEN : NSVCD_WHY_NOTHING);
+    CHECK(a.has_hit && !a.has_free);
+    nsvcd_body_free(r.parts[0].body, NULL);
+    free(r.memory);
+  }
+  shapes_free(&box);
+}
+
+// Two boxes that slide past each other as near as the clearance, to the last bit: not proven.
+static void ranges_too_near_to_tell(void) {
+  static robot r;
+  const nsvcd_body_pair pair = {0, 1};
+  robot_bare(&r, NSVCD_JOINT_PRISMATIC, 1, 2, 0.01);
+  r.joints[0].axis[1] = 1;
+  for (int n = 0; n < 2; n++) r.parts[n].body = robot_shapes()[0].body;
+  r.parts[1].link = 1;
+  r.parts[1].pose.position[0] = 0.125f;
+  robot_open(&r);
+  const float gap = 0.125f - 2 * 0.05f;
+  for (int n = 0; n < 8; n++) {
+    const nsvcd_range_answer a = range_of(&r, pair, gap * (1 - 1e-7f * (float)n), 0);
+    CHECK_EQ(a.meeting, NSVCD_MEETS_UNKNOWN);
+    CHECK(a.why == NSVCD_WHY_TOO_NEAR && a.open > 0);
+  }
+  CHECK_EQ(range_of(&r, pair, 0.99f * gap, 0).meeting, NSVCD_MEETS_NEVER);
+  free(r.memory);
 }
 
 static int stop_at_once(void *user) {
@@ -264,6 +443,10 @@ static void ranges_refuse(void) {
   CHECK_EQ(nsvcd_pair_range(r.checker, pair, &o, memory, size, &out), NSVCD_OK);
   CHECK_EQ(out.meeting, NSVCD_MEETS_UNKNOWN);
   CHECK_EQ(out.why, NSVCD_WHY_WORK);
+  o.stop = NULL;
+  o.units = 1;
+  CHECK_EQ(nsvcd_pair_range(r.checker, pair, &o, memory, size, &out), NSVCD_OK);
+  CHECK(out.meeting == NSVCD_MEETS_UNKNOWN && out.why == NSVCD_WHY_WORK);
   // about the centre of both they turn in each other
   CHECK_EQ(nsvcd_pair_range(r.checker, pair, NULL, memory, size, &out), NSVCD_OK);
   CHECK_EQ(out.meeting, NSVCD_MEETS_ALWAYS);
@@ -276,7 +459,12 @@ void test_ranges(void) {
   RUN(ranges_see_the_nearest);
   RUN(ranges_see_an_arm_straightened);
   RUN(ranges_see_a_hole);
+  RUN(ranges_see_the_end_of_a_block);
   RUN(ranges_narrow);
+  RUN(planes_part_no_less);
+  RUN(planes_know_what_bends);
+  RUN(ranges_know_bodies);
+  RUN(ranges_too_near_to_tell);
   RUN(ranges_refuse);
 }
 CHECK_ALONE(test_ranges)

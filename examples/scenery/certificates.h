@@ -428,19 +428,34 @@ static int write_box(const robot_in_room *in, const char *id, const double *box,
   return 1;
 }
 
+// Writes a name to `to` at *at, so that no two pairs A-B are written alike: with %2d for -, %2f for /,
+// %2c for a comma and %25 for %.
+static void put_name(char *to, size_t capacity, size_t *at, const char *name) {
+  for (; *name && *at + 4 < capacity; name++) {
+    const int is_plain = !strchr("-/,%", *name);
+    if (!is_plain) snprintf(to + *at, 4, "%%%02x", (unsigned)(unsigned char)*name);
+    if (is_plain) to[*at] = *name;
+    *at += is_plain ? 1 : 3;
+    to[*at] = 0;
+  }
+}
+
 // Writes FOLDER/A-B.cert, of a pair of the scene that never meets: boxes of values of the joints, cut
-// until each has a proof. Returns 0 after a complaint.
+// until each has a proof, or until `limit` seconds have passed. Returns 0 after a complaint.
 static int write_never_proof(const robot_in_room *in, const char *folder, size_t pair,
-                             size_t visits) {
+                             size_t visits, double limit) {
   const size_t joints = in->scene.joint_count;
-  const char *names[2] = {robot_name(in, in->scene.pairs[pair].a),
-                          robot_name(in, in->scene.pairs[pair].b)};
   char path[4096];
   size_t height = 1;
   size_t boxes = 0;
   size_t cut = 0;
+  int is_late = 0;
   const double start = seconds();
-  snprintf(path, sizeof path, "%s/%s-%s.cert", folder, names[0], names[1]);
+  size_t at = (size_t)snprintf(path, sizeof path / 2, "%s/", folder);
+  put_name(path, sizeof path - 8, &at, robot_name(in, in->scene.pairs[pair].a));
+  path[at++] = '-';
+  put_name(path, sizeof path - 8, &at, robot_name(in, in->scene.pairs[pair].b));
+  strcpy(path + at, ".cert");
   FILE *out = open_file(path, "wb");
   if (!out) return complain("%s: %s", path, strerror(errno));
   double *stack = (double *)allocate(NEVER_DEPTH * 2 * joints * sizeof *stack);
@@ -455,7 +470,8 @@ static int write_never_proof(const robot_in_room *in, const char *folder, size_t
   while (height > 0 && good && cut != NSVCD_NONE) {
     double *box = stack + (height - 1) * 2 * joints;
     good = write_box(in, path, box, pair, visits, &cut, out);
-    if (++boxes == NEVER_BOXES || height == NEVER_DEPTH) cut = NSVCD_NONE;
+    is_late = height > 1 && seconds() - start > limit;
+    if (++boxes == NEVER_BOXES || height == NEVER_DEPTH || is_late) cut = NSVCD_NONE;
     if (!good || cut == NSVCD_NONE) break;
     height--;
     if (cut == joints) continue;
@@ -468,7 +484,9 @@ static int write_never_proof(const robot_in_room *in, const char *folder, size_t
   const long size = ftell(out);
   good = close_written(out, path) && good;
   if (good && cut == NSVCD_NONE)
-    good = complain("%s: not written: too near, or for want of --visits or of boxes", path);
+    good = complain(
+        "%s: not written: %s", path,
+        is_late ? "for want of --seconds" : "too near, or for want of --visits or of boxes");
   if (!good) remove(path);
   if (good)
     fprintf(stderr, PROGRAM ": %s: %zu boxes, %ld bytes, in %.0f ms\n", path, boxes, size,

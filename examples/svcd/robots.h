@@ -9,8 +9,10 @@
 #define PLAN_NODES 100000
 // seconds: to which the first conflict of motions together is sought
 #define FIRST_CONFLICT 1e-3
-// that `pairs` takes, at most
+// that `pairs` takes, and the proof of a pair, at most
 #define PAIRS_SECONDS 10.0
+// units of its first search of each pair
+#define PAIRS_UNITS 400000
 // about each mesh of a link
 #define LINK_BALLS 128
 
@@ -566,7 +568,7 @@ static void print_pair(const robot_in_room *in, const nsvcd_body_pair *pair, int
   printf("\n");
 }
 
-// Asks about all pairs with ever more boxes, until all are decided or time is up.
+// Asks about all pairs with ever more units, until all are decided or time is up.
 static int decide_pairs(const robot_in_room *in, const settings *options, size_t count,
                         const nsvcd_body_pair *asked, nsvcd_range_answer *found) {
   nsvcd_range_options o;
@@ -578,11 +580,13 @@ static int decide_pairs(const robot_in_room *in, const settings *options, size_t
   o.seed = options->seed;
   o.stop = time_is_over;
   o.user = &limits;
-  for (o.boxes = 200; left > 0 && o.boxes <= 2000000; o.boxes *= 10) {
+  for (o.units = PAIRS_UNITS; left > 0 && o.units < SIZE_MAX / 8; o.units *= 8) {
+    const int is_first = o.units == PAIRS_UNITS;
     left = 0;
     for (size_t n = 0; n < count; n++) {
-      if (found[n].meeting != NSVCD_MEETS_UNKNOWN) continue;
-      if (o.boxes > 200 && time_is_over(&limits)) break;
+      if (!is_first && (found[n].meeting != NSVCD_MEETS_UNKNOWN || found[n].why != NSVCD_WHY_WORK))
+        continue;
+      if (!is_first && time_is_over(&limits)) return 1;
       o.clearance = clearance_above(in->file, &asked[n]);
       const size_t size = nsvcd_pair_range_size(in->checker, asked[n], &o);
       void *memory = allocate(size);
@@ -590,7 +594,7 @@ static int decide_pairs(const robot_in_room *in, const settings *options, size_t
           nsvcd_pair_range(in->checker, asked[n], &o, memory, size, &found[n]);
       free(memory);
       if (result) return complain("%s: %s", in->file->path, reason_of(result));
-      left += found[n].meeting == NSVCD_MEETS_UNKNOWN;
+      left += found[n].meeting == NSVCD_MEETS_UNKNOWN && found[n].why == NSVCD_WHY_WORK;
     }
   }
   return 1;
@@ -600,6 +604,7 @@ static int decide_pairs(const robot_in_room *in, const settings *options, size_t
 static int prove_pairs(robot_in_room *in, const settings *options, size_t count,
                        const nsvcd_body_pair *pairs, const nsvcd_range_answer *found) {
   nsvcd_joint joints[NSVCD_MAX_JOINTS];
+  const double limit = options->seconds > 0 ? (double)options->seconds : PAIRS_SECONDS;
   int good = 1;
   free(in->clearances);
   in->clearances = (float *)allocate(count * sizeof *in->clearances);
@@ -613,7 +618,7 @@ static int prove_pairs(robot_in_room *in, const settings *options, size_t count,
   const int is_open = open_room(in);
   for (size_t n = 0; n < count && is_open; n++)
     if (found[n].meeting == NSVCD_MEETS_NEVER)
-      good &= write_never_proof(in, options->certificates, n, options->visits);
+      good &= write_never_proof(in, options->certificates, n, options->visits, limit);
   in->scene.joints = NULL;
   return is_open && good;
 }

@@ -29,11 +29,11 @@
 // So in the end any two triangles are parted at any time. A plane of normal n parts two nodes from
 // t0 to t1, with no knot between, if at both ends
 //   n.(p_a - p_b) + min over a's node of n.(s R x) - max over b's node of n.(s R x)          (1)
-// is more than clearance |n| and what both bodies' points stray along n. For of any two points, one
+// is more than clearance |n| and what both bodies' points deviate along n. For of any two points, one
 // of each node, n.(x - y) is no less than (1) at the ends, so no less than the lesser on the chord
-// between, and each point leaves its chord by its stray at most. That goes with the distance from the
+// between, and each point leaves its chord by its deviation at most. That goes with the distance from the
 // body's origin, or, in a turn about one axis, with that from the axis (nsvcd_verify_scene.h): a
-// shaft that turns in a bore hardly strays. Over a box n.(s R x) is a sum over three sides, and so is
+// shaft that turns in a bore hardly deviates. Over a box n.(s R x) is a sum over three sides, and so is
 // each coordinate of x cross the axis; over few triangles both are most at corners.
 //   Surfaces that never meet do not get inside of each other later on, for how often one winds
 // about a point of the other changes only where they meet. If at some time the roots are parted,
@@ -118,16 +118,17 @@ static inline double verify__aside(const nsvcd_verify_mover *mover, const nsvcd_
   return 1.000001 * mover->scale * sqrt(most);
 }
 
-// What the points of a node stray along a normal, from a place on.
-static inline double verify__strays(const nsvcd_verify_mover *mover, const nsvcd_verify_node *node,
-                                    const nsvcd_verify_place *at, const double *stray,
-                                    const double *n, int exact) {
+// What the points of a node deviate along a normal, from a place on.
+static inline double verify__deviation_along(const nsvcd_verify_mover *mover,
+                                             const nsvcd_verify_node *node,
+                                             const nsvcd_verify_place *at, const double *deviation,
+                                             const double *n, int exact) {
   double axis[3], across[3];
-  for (int i = 0; i < 3; i++) axis[i] = verify__dot(at->turn + 3 * i, stray + 3);
+  for (int i = 0; i < 3; i++) axis[i] = verify__dot(at->turn + 3 * i, deviation + 3);
   for (int i = 0; i < 3; i++)
     across[i] = n[(i + 1) % 3] * axis[(i + 2) % 3] - n[(i + 2) % 3] * axis[(i + 1) % 3];
-  const double turn = stray[2] * verify__aside(mover, node, stray + 3, exact);
-  const double any = stray[0] + stray[1] * verify__radius(mover, node);
+  const double turn = deviation[2] * verify__aside(mover, node, deviation + 3, exact);
+  const double any = deviation[0] + deviation[1] * verify__radius(mover, node);
   return sqrt(verify__dot(n, n)) * any + sqrt(verify__dot(across, across)) * turn;
 }
 
@@ -142,7 +143,7 @@ static inline int verify__parts(const verify__reader *r, const verify__visit *v,
   // a normal of 0 parts nothing: gap and least are 0
   double last = VERIFY__BEYOND;
   double last_lengths = 0;
-  double stray = 0;
+  double deviation = 0;
   for (const verify__instant *at = r->instants; at < r->instants + r->count; at++) {
     const double lengths = verify__lengths(ra + rb + r->clearance + reach, &at->a, &at->b);
     if (!(lengths < VERIFY__BEYOND)) return 0;  // a maximum would lose a NaN
@@ -150,12 +151,12 @@ static inline int verify__parts(const verify__reader *r, const verify__visit *v,
     double gap = -verify__most(r->a, &v->a, at->a.turn, back, exact);
     gap -= verify__most(r->b, &v->b, at->b.turn, n, exact);
     for (int i = 0; i < 3; i++) gap += n[i] * (at->a.at[i] - at->b.at[i]);
-    const double least = length * (r->clearance + margin) + stray;
+    const double least = length * (r->clearance + margin) + deviation;
     if (!(gap > least && last > least && gap < VERIFY__BEYOND)) return 0;
     last = gap;
     last_lengths = lengths;
-    stray = verify__strays(r->a, &v->a, &at->a, at->stray_a, n, exact) +
-            verify__strays(r->b, &v->b, &at->b, at->stray_b, n, exact);
+    deviation = verify__deviation_along(r->a, &v->a, &at->a, at->deviation_a, n, exact) +
+                verify__deviation_along(r->b, &v->b, &at->b, at->deviation_b, n, exact);
   }
   return 1;
 }
@@ -167,14 +168,14 @@ static inline int verify__instants(verify__reader *r, double t0, double t1) {
   double t = t0;
   for (r->count = 0; r->count < r->capacity; t = verify__min(t, t1)) {
     verify__instant *at = &r->instants[r->count++];
-    memset(at, 0, sizeof *at);  // the last one strays no more
+    memset(at, 0, sizeof *at);  // the last one deviates no more
     at->t = t;
     r->a->place(r->a->motion, t, &at->a);
     r->b->place(r->b->motion, t, &at->b);
     if (!(t < t1)) return 1;
     t = verify__min(r->a->next(r->a->motion, t), r->b->next(r->b->motion, t));
-    r->a->stray(r->a->motion, at->t, verify__min(t, t1), at->stray_a);
-    r->b->stray(r->b->motion, at->t, verify__min(t, t1), at->stray_b);
+    r->a->deviation(r->a->motion, at->t, verify__min(t, t1), at->deviation_a);
+    r->b->deviation(r->b->motion, at->t, verify__min(t, t1), at->deviation_b);
   }
   return 0;
 }

@@ -26,7 +26,7 @@ typedef struct nsvcd_verify_report {
 typedef struct verify__instant {
   double t;
   nsvcd_verify_place a, b;
-  double stray_a[6], stray_b[6];  // strays from here to the next instant
+  double deviation_a[6], deviation_b[6];  // deviations from here to the next instant
 } verify__instant;
 
 typedef struct verify__reader {

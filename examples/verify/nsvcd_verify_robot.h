@@ -139,18 +139,19 @@ static inline double verify__offset(const float *at) {
               (double)at[2] * (double)at[2]);
 }
 
-// stray[0] and outer[0] are metres, stray[1] and outer[1] what r is multiplied by. The piece is the
+// deviation[0] and outer[0] are metres, deviation[1] and outer[1] what r is multiplied by. The piece is the
 // one half way, as of a path. Where t0 and t1 are neighbours and it is the one after t1, speed and
 // bend become nearly 0. They are: in 1.2e-16 no joint goes farther than 1.2e-11, at 1e5 a stretch of
-// 1, and A, with 1e-9 for a piece, is below 1e-16: a stray of 1e-14 of all lengths.
-static inline void verify__part_stray(const void *motion, double t0, double t1, double *stray) {
+// 1, and A, with 1e-9 for a piece, is below 1e-16: a deviation of 1e-14 of all lengths.
+static inline void verify__part_deviation(const void *motion, double t0, double t1,
+                                          double *deviation) {
   const nsvcd_verify_part *part = (const nsvcd_verify_part *)motion;
   const nsvcd_verify_motion *m = part->motion;
   const size_t piece = verify__piece(m, 0.5 * (t0 + t1));
   const double n = (double)m->degree;
   double reach = verify__offset(part->pose);
   double outer[2] = {0, 0};
-  stray[0] = stray[1] = 0;
+  deviation[0] = deviation[1] = 0;
   for (uint32_t link = part->link; link != part->base; link = m->joints[link - 1].parent) {
     const nsvcd_verify_joint *joint = &m->joints[link - 1];
     const double arm[2] = {joint->slides ? 1 : reach, joint->slides ? 0.0 : 1.0};
@@ -166,8 +167,8 @@ static inline void verify__part_stray(const void *motion, double t0, double t1, 
     speed += off;
     bend += off;
     for (int k = 0; k < 2; k++) {
-      stray[k] += 0.1250001 * bend * arm[k];
-      if (!joint->slides) stray[k] += 0.1250001 * speed * (2 * outer[k] + speed * arm[k]);
+      deviation[k] += 0.1250001 * bend * arm[k];
+      if (!joint->slides) deviation[k] += 0.1250001 * speed * (2 * outer[k] + speed * arm[k]);
       outer[k] += speed * arm[k];
     }
     reach += verify__offset(joint->origin) + (joint->slides ? most : 0);
@@ -306,7 +307,7 @@ static inline double verify__along(const nsvcd_verify_part *part, const double *
 // Does an axis of a part, seen from the world, stay within an angle of a direction, both of length
 // 1? Where it does, its product with the direction is no less than the angle's cosine. If both ends
 // of a stretch are so, the chord between them is, and the axis leaves that as a point at a distance
-// of 1 does that only turns: by stray[1]. The stretches are as long as that allows. Returns 1 if all
+// of 1 does that only turns: by deviation[1]. The stretches are as long as that allows. Returns 1 if all
 // are so by VERIFY__MARGIN, and 0 also where that takes stretches shorter than 1e-12.
 static inline int nsvcd_verify_keeps(const nsvcd_verify_part *part, const double *axis,
                                      const double *direction, double angle) {
@@ -316,9 +317,9 @@ static inline int nsvcd_verify_keeps(const nsvcd_verify_part *part, const double
   for (double t = 0; t < 1;) {
     const double end = verify__min(t + stretch, verify__part_next(part, t));
     const double next = verify__along(part, axis, direction, end);
-    double stray[2];
-    verify__part_stray(part, t, end, stray);
-    const int keeps = verify__min(last, next) - stray[1] >= least;
+    double deviation[2];
+    verify__part_deviation(part, t, end, deviation);
+    const int keeps = verify__min(last, next) - deviation[1] >= least;
     stretch = (end - t) * (keeps ? 2 : 0.5);
     if (!keeps && !(stretch > 1e-12)) return 0;
     if (keeps) t = end;
@@ -393,7 +394,7 @@ static inline const char *nsvcd_verify_part_init(const nsvcd_verify_mesh *mesh, 
   mover->scale = (double)scale;
   mover->place = verify__part_place;
   mover->next = verify__part_next;
-  mover->stray = verify__part_stray;
+  mover->deviation = verify__part_deviation;
   mover->motion = part;
   mover->clock = m;
   mover->base = part->base;

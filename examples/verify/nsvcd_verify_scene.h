@@ -52,16 +52,16 @@ typedef struct nsvcd_verify_place {
 
 // A mesh that moves. A motion is three functions: where it is at a time; the next knot (a time at
 // which it has a corner) after a time before 1; and by how much, at most, a point leaves its chord
-// between two times without a knot between. Along a unit direction n of the world that is stray[0]
-// + stray[1] r + stray[2] rho |n x R a|, for a point at r metres from the body's origin and rho
-// from the line through that along a = stray[3..5], a unit vector of the body that R takes to the
+// between two times without a knot between. Along a unit direction n of the world that is deviation[0]
+// + deviation[1] r + deviation[2] rho |n x R a|, for a point at r metres from the body's origin and rho
+// from the line through that along a = deviation[3..5], a unit vector of the body that R takes to the
 // same one at all these times. What is not set is 0.
 typedef struct nsvcd_verify_mover {
   const nsvcd_verify_mesh *mesh;
   double scale;
   void (*place)(const void *motion, double t, nsvcd_verify_place *place);
   double (*next)(const void *motion, double t);
-  void (*stray)(const void *motion, double t0, double t1, double *stray);
+  void (*deviation)(const void *motion, double t0, double t1, double *deviation);
   const void *motion;
   double reach;       // metres: what its places are computed from is no farther off
   uint32_t digest;    // digest of the scale and the motion
@@ -447,18 +447,19 @@ static inline double verify__path_next(const void *motion, double t) {
 }
 
 // A turn by h at a constant rate about an axis a has a second derivative of h^2 a x (a x y) at y =
-// R x. Along n that is h^2 (n x a).(a x y), no more than h^2 |n x a| rho, and the stray is an
+// R x. Along n that is h^2 (n x a).(a x y), no more than h^2 |n x a| rho, and the deviation is an
 // eighth of it. The turn from q to q' is about the vector of q^-1 q', as the body has it: off by
-// 1e-15 / h, and the stray by 1e-16 h r for that. The pose before is looked up half way. Where t0
+// 1e-15 / h, and the deviation by 1e-16 h r for that. The pose before is looked up half way. Where t0
 // and t1 are neighbours, half way may be t1 (ties go to even), the knot at the end, and the pose
 // one too late. Then t1 - t0 < 1.2e-16, of a stretch of 0.99e-7 at least: a turn by less than 4e-9,
-// a true stray below 2e-18 r, which the margin, 1e-10 r, holds.
-static inline void verify__path_stray(const void *motion, double t0, double t1, double *stray) {
+// a true deviation below 2e-18 r, which the margin, 1e-10 r, holds.
+static inline void verify__path_deviation(const void *motion, double t0, double t1,
+                                          double *deviation) {
   const nsvcd_verify_path *p = (const nsvcd_verify_path *)motion;
   const size_t k = verify__pose_before(p, 0.5 * (t0 + t1));
   double from[4], to[4];
   const double h = verify__share(p, k, t0, t1) * verify__turn(p, k, from, to);
-  double *axis = stray + 3;
+  double *axis = deviation + 3;
   double square = 0;
   for (int i = 0; i < 3; i++) {
     const int j = (i + 1) % 3;
@@ -468,9 +469,9 @@ static inline void verify__path_stray(const void *motion, double t0, double t1, 
   }
   for (int i = 0; i < 3 && square > 0; i++) axis[i] /= sqrt(square);
   if (square > 0)
-    stray[2] = 0.1250001 * h * h;
+    deviation[2] = 0.1250001 * h * h;
   else
-    stray[1] = 0.1250001 * h * h;
+    deviation[1] = 0.1250001 * h * h;
 }
 
 // Makes a mover of a mesh, a scale and a path, which stay. Returns why not, or NULL.
@@ -499,7 +500,7 @@ static inline const char *nsvcd_verify_path_init(const nsvcd_verify_mesh *mesh, 
   mover->scale = (double)scale;
   mover->place = verify__path_place;
   mover->next = verify__path_next;
-  mover->stray = verify__path_stray;
+  mover->deviation = verify__path_deviation;
   mover->motion = p;
   mover->clock = NULL;
   mover->base = 0;

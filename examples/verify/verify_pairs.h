@@ -93,6 +93,18 @@ static int is_named(const robot *r, uint32_t a, uint32_t b) {
   return 0;
 }
 
+// Writes a name to `to` at *at, so that no two pairs A-B are written alike: with %2d for -, %2f for /,
+// %2c for a comma and %25 for %.
+static void put_name(char *to, size_t capacity, size_t *at, const char *name) {
+  for (; *name && *at + 4 < capacity; name++) {
+    const int is_plain = !strchr("-/,%", *name);
+    if (!is_plain) snprintf(to + *at, 4, "%%%02x", (unsigned)(unsigned char)*name);
+    if (is_plain) to[*at] = *name;
+    *at += is_plain ? 1 : 3;
+    to[*at] = 0;
+  }
+}
+
 // Checks A-B.cert for each two bodies of the robot that are on different links and no pair of the
 // file, which plans look at. Returns 1 if all are accepted.
 static int check_pairs(robot *r, request *asked) {
@@ -104,7 +116,10 @@ static int check_pairs(robot *r, request *asked) {
     size_t size = 0;
     size_t at = 0;
     if (bodies[0] >= bodies[1] || bodies[0]->link == bodies[1]->link) continue;
-    snprintf(id, sizeof id, "%s-%s", bodies[0]->name, bodies[1]->name);
+    size_t end = 0;
+    put_name(id, sizeof id / 2, &end, bodies[0]->name);
+    id[end++] = '-';
+    put_name(id, sizeof id, &end, bodies[1]->name);
     snprintf(path, sizeof path, "%s/%s.cert", asked->folder, id);
     if (is_named(r, (uint32_t)(n / r->own), (uint32_t)(n % r->own)) || !is_wanted(asked, id))
       continue;

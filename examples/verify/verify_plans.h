@@ -672,7 +672,7 @@ static int check_plans(const char *path, char *text, request *asked, robot *out)
       r.distances.count = own_distances;
       r.allows.count = own_allows;
       r.keeps.count = own_keeps;
-    } else if (strcmp(word, "obstacle") == 0 && n >= 3 && scene && !has_tasks) {
+    } else if (strcmp(word, "obstacle") == 0 && n >= 3 && scene) {
       add_body(&r, words, n);
     } else if (strcmp(word, "allow") == 0 && is_step(words, n, scene) && !scene) {
       add_allowed(&r, words, n);

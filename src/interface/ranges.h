@@ -2,8 +2,9 @@
 //
 // What setup assistants tell from random configurations is proven here, over all values of the
 // joints within their limits. Values are cut into boxes. In a box the two parts are apart if a
-// sweep along one of its joints is free, with how far the other joints can move a point as a
-// clearance. They meet everywhere in a box if a point of both stays inside of both.
+// plane is between them whatever the joints do; or if a sweep along one of its joints is free, with
+// how far the other joints can move a point as a clearance. They meet everywhere in a box if a
+// point of both stays inside of both.
 #pragma once
 #include "robots.h"
 
@@ -28,7 +29,7 @@ typedef struct nsvcd_range_options {
   float clearance;
   // units for each proof of a sweep or a configuration; default NSVCD_DEFAULT_WORK
   size_t work;
-  // the most boxes that are looked into, up to NSVCD_MAX_BOXES; default 2,000
+  // the most boxes that are looked into, up to NSVCD_MAX_BOXES, which is the default
   size_t boxes;
   // seed of the random numbers
   uint64_t seed;
@@ -37,6 +38,9 @@ typedef struct nsvcd_range_options {
   int (*stop)(void *user);
   // passed to `stop`
   void *user;
+  // units of the whole search, approximately, of which a question takes some beside its proof;
+  // default 4,000,000
+  size_t units;
 } nsvcd_range_options;
 
 #define NSVCD_MAX_BOXES 10000000
@@ -46,7 +50,9 @@ typedef struct nsvcd_range_answer {
   nsvcd_meeting meeting;
   // the reason if it is UNKNOWN. TOO_NEAR: somewhere they are too near each other to tell, or they
   // meet but no point was found that stays inside of both. WORK: boxes or units of work were not
-  // enough, or the search was stopped. OPEN: as nsvcd_why has it
+  // enough, or the search was stopped. OPEN: as nsvcd_why has it, or they meet wherever that was
+  // asked, and all components of one are open, so that no point is known to be inside of it: more
+  // work will not tell
   nsvcd_why why;
   // number of joints between the two parts, each leader counted once with those that mimic it; the
   // others do not matter
@@ -79,13 +85,14 @@ NSVCDDEF size_t nsvcd_pair_range_size(const nsvcd_checker *checker, nsvcd_body_p
 //   threads    each needs memory of its own; the checker may be shared
 //   errors     ARGUMENT, PAIR, CLEARANCE, COUNT (boxes), WORKSPACE; POSE, SCALE, as nsvcd_check
 //   source     branch and bound, by a Lipschitz bound; difference: along one joint the motion
-//              itself is proven
+//              itself is proven, and joints count by how they move points along a plane's normal
 //
 // Allowances and cones of the scene do not count.
 //
-// One joint between the parts takes one proof, two some ten to a thousand, as near as the parts
-// come. With more joints SOMETIMES is found soon where it is so, by configurations drawn at random
-// and by going down the slope of the distance.
+// One joint between the parts takes one proof, two some ten to a thousand boxes, as near as the
+// parts come. With more joints SOMETIMES is found soon where it is so, by configurations drawn at
+// random and by going down the slope of the distance. NEVER takes the longer the nearer the parts
+// come, and the more joints there are.
 NSVCDDEF nsvcd_result nsvcd_pair_range(const nsvcd_checker *checker, nsvcd_body_pair pair,
                                        const nsvcd_range_options *options, void *memory,
                                        size_t size, nsvcd_range_answer *answer);

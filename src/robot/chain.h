@@ -18,6 +18,8 @@
 //   cholesky         linear equations
 //   reach            configurations that have a tool at a target
 //   spans            two parts, and how far the joints between them move a point
+//   meetings         configurations in which two parts meet, and in which they do not
+//   partings         does a plane part two parts in all of a box of values?
 //   ranges           do two parts meet never, always or sometimes?
 //   blends           from one state to another, within limits of speed and acceleration
 //   smooth           a path, timed, then smooth
@@ -126,6 +128,8 @@ struct nsvcd_checker {
   void *user;
   // an error of a question, which ends those that follow
   nsvcd_result result;
+  // units that questions took so far
+  uint64_t units;
 };
 
 static nsvcd__d3 nsvcd__dquat_rotate(nsvcd__dquat q, nsvcd__d3 a) {

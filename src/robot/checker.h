@@ -240,6 +240,7 @@ NSVCDDEF nsvcd_result nsvcd_checker_open(const nsvcd_scene *scene, void *memory,
   c->own.joints = c->joints;
   c->scene = scene;
   c->surfaces = 0;
+  c->units = 0;
   c->stop = NULL;
   c->result = NSVCD_OK;
   for (size_t i = 0; i < scene->joint_count; i++) {

@@ -79,5 +79,6 @@ static nsvcd_verdict nsvcd__ask_sweep(nsvcd_checker *c, const nsvcd_question *q,
   asked.stop = c->stop;
   asked.user = c->user;
   if (!c->result) c->result = nsvcd_sweep(&asked, c->query, c->query_size, found);
+  c->units += found->work;
   return found->verdict;
 }

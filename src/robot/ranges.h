@@ -1,138 +1,43 @@
 // In: two parts of a robot. Out: do they meet never, always or sometimes, over all values of the
 // joints between them?
 //
-// Some 64 configurations are tried first. If the parts meet in some and not in others, that is the
-// answer. If they meet in none, boxes of values are proven to be free; if in all, to be such
-// that a point of one part stays inside of the other:
+// Some configurations are tried first (robot/meetings.h). If the parts meet in some and not in
+// others, that is the answer. If they meet in none, boxes of values are proven to be free; if in
+// all, to be such that a point of one part stays inside of the other:
 //
-//   free   a sweep along one joint of the box, with all that the other joints can move a point as a
-//          clearance (robot/spans.h)
+//   free   a plane that parts the two (robot/partings.h); or a sweep along one joint of the box,
+//          with all that the other joints can move a point as a clearance (robot/spans.h)
 //   hit    a point inside of both parts rides on one of them. Along the same sweep, with the same
 //          clearance, it does not meet the surface of the other part: so it stays inside of it. Two
 //          solids that have a point in common meet: either their surfaces do, or a component of one
 //          is inside of the other
 //
-// A box that is neither is cut in two along the joint that moves points farthest.
+// A box that is neither is cut in two, along the joint that moves points farthest; or, where the
+// best plane is nearer to being enough than the sweep, that brings them nearest along its normal.
 #pragma once
-#include "configurations.h"
-#include "spans.h"
+#include "meetings.h"
+#include "partings.h"
 
-// defaults, and numbers of configurations
-#define NSVCD__RANGE_BOXES 2000
-#define NSVCD__RANGE_DRAWS 64
-// boxes that fail before the slope is followed, and how far it is
-#define NSVCD__RANGE_SLOPES 24
-#define NSVCD__SLOPE_STEPS 12
+// the default; and of a box, beside its questions
+#define NSVCD__RANGE_UNITS 4000000
+#define NSVCD__BOX_UNITS 10
+// boxes that are kept. While more than half of these are left, the newest is taken first, so that
+// they are not too many
+#define NSVCD__KEPT_BOXES 4096
+// boxes that are given up before the search is
+#define NSVCD__MOST_DROPPED 64
+// the first boxes that fail, and every so many later, have the slope followed
+#define NSVCD__FIRST_SLOPES 24
+#define NSVCD__NEXT_SLOPES 64
 // metres: a box in which points move by less is not cut
 #define NSVCD__LEAST_TRAVEL 2e-5
 // the share of the joint that is swept along, when a box is cut
 #define NSVCD__SWEPT_SHARE 0.25
-// probes that are kept; points on each axis, and others, that are tried for one
-#define NSVCD__KEPT_PROBES 4
+// points on each axis, and others, that are tried for a probe
 #define NSVCD__AXIS_POINTS 8
 #define NSVCD__OTHER_POINTS 32
 // units for a question about a probe in one configuration
 #define NSVCD__PROBE_WORK 20000
-
-typedef struct nsvcd__ranging {
-  nsvcd__span span;
-  nsvcd_range_options options;
-  nsvcd_range_answer answer;
-  // (capacity, 2 joints + 1): boxes that are left, and the fraction that each is of all values; a
-  // ring
-  double *boxes;
-  size_t capacity, first, count;
-  // that were given up
-  double dropped;
-  // best first
-  nsvcd__probe probes[NSVCD__KEPT_PROBES];
-  size_t probe_count;
-  // boxes that failed
-  size_t failed;
-  uint64_t random;
-  nsvcd_result result;
-} nsvcd__ranging;
-
-// ---- configurations
-
-static int nsvcd__range_is_over(nsvcd__ranging *r) {
-  const nsvcd_range_options *o = &r->options;
-  if (r->result || (r->answer.has_free && r->answer.has_hit)) return 1;
-  if (!o->stop || !o->stop(o->user)) return 0;
-  r->answer.why = NSVCD_WHY_WORK;
-  return 1;
-}
-
-// Asks about the two parts in the configuration span.at, and notes what is known there.
-static nsvcd_verdict nsvcd__note_here(nsvcd__ranging *r) {
-  nsvcd_check_answer found;
-  nsvcd__span *s = &r->span;
-  nsvcd__follow(&s->scene, 1, s->at);
-  const size_t bytes = s->scene.joint_count * sizeof *s->at;
-  const double clearance = (double)r->options.clearance;
-  r->result = nsvcd__ask_span(s, 0, NSVCD_NONE, clearance, &r->options, &found);
-  if (r->result) return NSVCD_UNDECIDED;
-  if (found.verdict == NSVCD_FREE && !r->answer.has_free) {
-    memcpy(r->answer.free, s->at, bytes);
-    r->answer.has_free = 1;
-  }
-  if (found.verdict == NSVCD_HIT && !r->answer.has_hit) {
-    memcpy(r->answer.hit, s->at, bytes);
-    r->answer.has_hit = 1;
-  }
-  if (found.verdict == NSVCD_UNDECIDED) r->answer.why = found.why;
-  return found.verdict;
-}
-
-// From the configuration span.at on, down the slope of the distance until the parts meet (sign -1),
-// or up until they do not (1).
-static void nsvcd__follow_slope(nsvcd__ranging *r, double sign) {
-  nsvcd__span *s = &r->span;
-  nsvcd_checker *c = s->checker;
-  const nsvcd_proximity_options o = {NSVCD_MAX_COORDINATE / 4, 1e-3f, 0.1f, r->options.work};
-  const double clearance = (double)r->options.clearance;
-  for (size_t n = 0; n < NSVCD__SLOPE_STEPS && !nsvcd__range_is_over(r); n++) {
-    nsvcd_proximity nearest;
-    double square = 0;
-    s->scene.pairs = c->own.pairs = s->pairs;
-    nsvcd__follow(&s->scene, 1, s->at);
-    c->surfaces = 0;
-    c->result = NSVCD_OK;
-    nsvcd__place_links(c, s->at, c->at);
-    nsvcd__place_sample(c, c->at, 0);
-    if (!nsvcd__proximity_of(c, 0, &o, &nearest)) return;
-    const double apart =
-        nearest.verdict == NSVCD_HIT ? -(double)nearest.depth : (double)nearest.distance.low;
-    for (size_t k = 0; k < s->joints; k++)
-      square += nearest.slope[s->path[k]] * nearest.slope[s->path[k]];
-    if (!(square > 0)) return;
-    const double step = fabs(apart - clearance) + 1e-3;
-    for (size_t k = 0; k < s->joints; k++) {
-      double low, high;
-      const size_t j = s->path[k];
-      nsvcd__values_of(&s->scene.joints[j], &low, &high);
-      const double to = s->at[j] + sign * step / square * nearest.slope[j];
-      s->at[j] = nsvcd__max(low, nsvcd__min(high, to));
-    }
-    (void)nsvcd__note_here(r);
-  }
-}
-
-// Tries corners of the ranges, and then configurations drawn at random.
-static void nsvcd__try_draws(nsvcd__ranging *r) {
-  nsvcd__span *s = &r->span;
-  const size_t corners = s->joints < 5 ? (size_t)1 << s->joints : 32;
-  for (size_t n = 0; n < NSVCD__RANGE_DRAWS && !nsvcd__range_is_over(r); n++) {
-    for (size_t k = 0; k < s->joints; k++) {
-      double low, high;
-      nsvcd__values_of(&s->scene.joints[s->path[k]], &low, &high);
-      const double random = nsvcd__random(&r->random);
-      const double end = s->joints < 5 ? (double)(n >> k & 1) : random < 0.5;
-      s->at[s->path[k]] = low + (n < corners ? end : random) * (high - low);
-    }
-    (void)nsvcd__note_here(r);
-  }
-}
 
 // ---- boxes
 
@@ -140,22 +45,28 @@ static double *nsvcd__box_at(nsvcd__ranging *r, size_t n) {
   return r->boxes + (r->first + n) % r->capacity * (2 * r->span.joints + 1);
 }
 
-// Cuts the box that was taken. The span's arms say along which joint.
-static void nsvcd__cut_box(nsvcd__ranging *r, const double *box, size_t along) {
+// Gives the box that was taken up.
+static void nsvcd__drop_box(nsvcd__ranging *r, const double *box) {
+  r->dropped += box[2 * r->span.joints];
+  r->dropped_count++;
+}
+
+// Cuts the box that was taken, along the joint of its path that moves most.
+static void nsvcd__cut_box(nsvcd__ranging *r, const double *box, const double *moved) {
   const nsvcd__span *s = &r->span;
   const size_t size = 2 * s->joints + 1;
   const double share = box[size - 1];
-  size_t joint = along;
-  double most = along == NSVCD_NONE ? 0 : NSVCD__SWEPT_SHARE * s->half[along] * s->arms[along];
-  for (size_t k = 0; k < s->joints; k++) {
-    const double moved = s->half[k] * s->arms[k];
-    if (k == along || !(moved > most)) continue;
-    most = moved;
-    joint = k;
-  }
+  size_t joint = 0;
+  for (size_t k = 1; k < s->joints; k++)
+    if (moved[k] > moved[joint]) joint = k;
   if (!(nsvcd__travel_but(s, NSVCD_NONE) > NSVCD__LEAST_TRAVEL)) {
     if (!r->answer.why) r->answer.why = NSVCD_WHY_TOO_NEAR;
-    r->dropped += share;
+    nsvcd__drop_box(r, box);
+    return;
+  }
+  if (r->count + 2 > r->capacity) {
+    r->answer.why = NSVCD_WHY_WORK;
+    nsvcd__drop_box(r, box);
     return;
   }
   for (size_t n = 0; n < 2; n++) {
@@ -166,43 +77,63 @@ static void nsvcd__cut_box(nsvcd__ranging *r, const double *box, size_t along) {
   }
 }
 
-// Follows the slope from the configuration that a check names, in the first boxes that fail.
+// Asks about the configuration that a check names, where the parts are near each other or not; from
+// there the slope is followed, if enough boxes failed.
 static void nsvcd__try_near(nsvcd__ranging *r, size_t along, const nsvcd_check_answer *found,
                             double sign) {
   nsvcd__span *s = &r->span;
   double centre[NSVCD_MAX_JOINTS];
-  const size_t bytes = s->scene.joint_count * sizeof *centre;
-  memcpy(centre, s->at, bytes);
+  const size_t failed = r->failed++;
+  const int is_followed = failed < NSVCD__FIRST_SLOPES || failed % NSVCD__NEXT_SLOPES == 0;
+  const int is_near = !(found->contact.gap > r->options.clearance);
+  if (!is_followed && sign < 0 && !is_near) return;
+  memcpy(centre, s->at, sizeof centre);
   if (along != NSVCD_NONE)
     s->at[s->path[along]] = s->low[along] + found->fraction * (s->high[along] - s->low[along]);
   (void)nsvcd__note_here(r);
-  if (r->failed++ < NSVCD__RANGE_SLOPES) nsvcd__follow_slope(r, sign);
-  memcpy(s->at, centre, bytes);
+  if (is_followed && !nsvcd__range_is_over(r)) nsvcd__follow_slope(r, sign);
+  memcpy(s->at, centre, sizeof centre);
 }
 
-// Is the box free, all of it? If not, it is cut.
+// Is the box free, all of it? If not, it is cut. Where its centre is too near, no sweep through it
+// is free.
 static void nsvcd__prove_free(nsvcd__ranging *r, const double *box) {
   nsvcd__span *s = &r->span;
   nsvcd_check_answer found;
   nsvcd__links at;
+  double moved[NSVCD_MAX_JOINTS];
   nsvcd__place_links(s->checker, s->at, &at);
-  const nsvcd__rider balls[2] = {nsvcd__rider_of(s->checker, &at, 0),
-                                 nsvcd__rider_of(s->checker, &at, 1)};
-  nsvcd__arms_between(s, &at, balls);
+  const nsvcd__rider riders[2] = {nsvcd__rider_of(s->checker, &at, 0),
+                                  nsvcd__rider_of(s->checker, &at, 1)};
+  nsvcd__arms_between(s, &at, riders);
+  r->units += NSVCD__BOX_UNITS;
+  const double kept = (double)r->options.clearance + s->beyond;
+  const nsvcd__parting parting = nsvcd__best_parting(s, &at, riders, kept);
+  if (parting.apart > kept) return;
   const size_t along = nsvcd__farthest_joint(s);
   const double travel = nsvcd__travel_but(s, along);
   const double clearance = (double)r->options.clearance + travel;
-  if (nsvcd__note_here(r) == NSVCD_HIT || r->result) return;
-  r->result = nsvcd__ask_span(s, 0, along, clearance, &r->options, &found);
-  if (r->result || found.verdict == NSVCD_FREE) return;
-  if (found.verdict == NSVCD_HIT) nsvcd__try_near(r, along, &found, -1);
+  size_t asked = NSVCD_NONE;
+  if (nsvcd__ask_range(r, 0, asked, clearance, &found) == NSVCD_FREE) {
+    asked = along;
+    if (nsvcd__ask_range(r, 0, asked, clearance, &found) == NSVCD_FREE) return;
+  }
+  if (r->result) return;
+  if (found.verdict == NSVCD_HIT) nsvcd__try_near(r, asked, &found, -1);
   if (travel > 0) {
-    nsvcd__cut_box(r, box, along);
+    for (size_t k = 0; k < s->joints; k++) moved[k] = s->half[k] * s->arms[k];
+    moved[along] *= NSVCD__SWEPT_SHARE;
+    // by how much of the room that there is for it either bound is too much
+    const double room =
+        nsvcd__max((double)found.contact.gap - (double)r->options.clearance, 0);
+    if ((parting.centre - parting.apart) * room < travel * (parting.centre - kept))
+      nsvcd__losses_of(s, &at, riders, &parting, moved);
+    nsvcd__cut_box(r, box, moved);
     return;
   }
   // no more can be told of it
-  r->answer.why = found.why;
-  r->dropped += box[2 * s->joints];
+  r->answer.why = found.why ? found.why : NSVCD_WHY_TOO_NEAR;
+  nsvcd__drop_box(r, box);
 }
 
 // ---- probes
@@ -249,11 +180,17 @@ static int nsvcd__is_common_point(nsvcd__span *s, const nsvcd__links *at, double
 
 // The span's arms for a probe, which has been put in its place.
 static void nsvcd__arms_of_probe(nsvcd__span *s, const nsvcd__links *at, size_t side) {
-  nsvcd__rider balls[2];
-  balls[side] = nsvcd__rider_of(s->checker, at, 2);
-  balls[side].radius = 2 * s->probe_extent;
-  balls[!side] = nsvcd__rider_of(s->checker, at, !side);
-  nsvcd__arms_between(s, at, balls);
+  nsvcd__rider riders[2];
+  riders[side] = nsvcd__rider_of(s->checker, at, 2);
+  const double radius = 2 * s->probe_extent;
+  riders[side].radius = radius;
+  riders[side].middle = riders[side].centre;
+  for (size_t k = 0; k < 3; k++) {
+    riders[side].sides[k] = nsvcd__d3_of(0, 0, 0);
+    nsvcd__d3_set_axis(&riders[side].sides[k], k, radius);
+  }
+  riders[!side] = nsvcd__rider_of(s->checker, at, !side);
+  nsvcd__arms_between(s, at, riders);
 }
 
 // Keeps a probe at a point of the world, if it is in both parts and among the best.
@@ -332,8 +269,8 @@ static int nsvcd__stays_inside(nsvcd__ranging *r, const nsvcd__links *at,
   nsvcd__arms_of_probe(s, at, (size_t)probe->side);
   const size_t along = nsvcd__farthest_joint(s);
   const double travel = nsvcd__travel_but(s, along);
-  r->result = nsvcd__ask_span(s, 1, along, travel + room, &r->options, &found);
-  if (r->result || found.verdict == NSVCD_FREE) return !r->result;
+  if (nsvcd__ask_range(r, 1, along, travel + room, &found) == NSVCD_FREE) return 1;
+  if (r->result) return 0;
   if (found.verdict == NSVCD_HIT && !nsvcd__range_is_over(r))
     nsvcd__try_near(r, along, &found, 1);
   return 0;
@@ -342,6 +279,7 @@ static int nsvcd__stays_inside(nsvcd__ranging *r, const nsvcd__links *at,
 // Do the parts meet everywhere in the box? If that is not known, it is cut.
 static void nsvcd__prove_hit(nsvcd__ranging *r, const double *box) {
   nsvcd__span *s = &r->span;
+  double moved[NSVCD_MAX_JOINTS];
   nsvcd__links at;
   nsvcd__place_links(s->checker, s->at, &at);
   if (nsvcd__note_here(r) == NSVCD_FREE || r->result) return;
@@ -351,10 +289,11 @@ static void nsvcd__prove_hit(nsvcd__ranging *r, const double *box) {
       if (nsvcd__stays_inside(r, &at, &r->probes[n]) || nsvcd__range_is_over(r)) return;
     }
   }
-  const nsvcd__rider balls[2] = {nsvcd__rider_of(s->checker, &at, 0),
-                                 nsvcd__rider_of(s->checker, &at, 1)};
-  if (!r->probe_count) nsvcd__arms_between(s, &at, balls);
-  nsvcd__cut_box(r, box, NSVCD_NONE);
+  const nsvcd__rider riders[2] = {nsvcd__rider_of(s->checker, &at, 0),
+                                  nsvcd__rider_of(s->checker, &at, 1)};
+  if (!r->probe_count) nsvcd__arms_between(s, &at, riders);
+  for (size_t k = 0; k < s->joints; k++) moved[k] = s->half[k] * s->arms[k];
+  nsvcd__cut_box(r, box, moved);
 }
 
 // ---- the search
@@ -371,16 +310,18 @@ static int nsvcd__search_boxes(nsvcd__ranging *r, int is_free) {
   r->first = 0;
   r->count = 1;
   r->dropped = 0;
+  r->dropped_count = 0;
   r->failed = 0;
   r->answer.open = 1;
   r->answer.why = NSVCD_WHY_NOTHING;
-  while (r->count > 0 && !nsvcd__range_is_over(r)) {
+  while (r->count > 0 && r->dropped_count < NSVCD__MOST_DROPPED && !nsvcd__range_is_over(r)) {
     if (r->answer.boxes == r->options.boxes) {
       r->answer.why = NSVCD_WHY_WORK;
       break;
     }
-    memcpy(box, nsvcd__box_at(r, 0), size * sizeof *box);
-    r->first = (r->first + 1) % r->capacity;
+    const int is_oldest = r->count <= r->capacity / 2;
+    memcpy(box, nsvcd__box_at(r, is_oldest ? 0 : r->count - 1), size * sizeof *box);
+    r->first = (r->first + (size_t)is_oldest) % r->capacity;
     r->count--;
     r->answer.boxes++;
     nsvcd__take_box(s, box);
@@ -393,12 +334,32 @@ static int nsvcd__search_boxes(nsvcd__ranging *r, int is_free) {
   return !r->result && r->count == 0 && !(r->dropped > 0);
 }
 
+// Can anything be proven to be inside of a part?
+static int nsvcd__may_enclose(const nsvcd_part *part) {
+  const nsvcd_body_facts facts = nsvcd_body_describe(part->body);
+  return !facts.open && facts.open_components < facts.components;
+}
+
+// The parts meet in all configurations that were tried: do they in all?
+static void nsvcd__find_always(nsvcd__ranging *r) {
+  nsvcd_range_answer *a = &r->answer;
+  const nsvcd_part *parts = r->span.parts;
+  if (nsvcd__may_enclose(&parts[0]) && nsvcd__may_enclose(&parts[1])) {
+    if (nsvcd__search_boxes(r, 0)) a->meeting = NSVCD_MEETS_ALWAYS;
+    return;
+  }
+  nsvcd__try_slopes(r, NSVCD__SLOPES_UP, 1);
+  a->open = 1;
+  if (!a->why) a->why = NSVCD_WHY_OPEN;
+}
+
 static void nsvcd__find_range(nsvcd__ranging *r) {
   nsvcd_range_answer *a = &r->answer;
   nsvcd__try_draws(r);
-  if (!r->result && !a->has_hit && nsvcd__search_boxes(r, 1)) a->meeting = NSVCD_MEETS_NEVER;
-  if (!r->result && a->has_hit && !a->has_free && nsvcd__search_boxes(r, 0))
-    a->meeting = NSVCD_MEETS_ALWAYS;
+  // with few joints boxes are quicker
+  if (!a->has_hit && r->span.joints > 2) nsvcd__try_slopes(r, NSVCD__SLOPES_DOWN, -1);
+  if (!a->has_hit && nsvcd__search_boxes(r, 1)) a->meeting = NSVCD_MEETS_NEVER;
+  if (a->has_hit && !a->has_free) nsvcd__find_always(r);
   if (a->has_free && a->has_hit) a->meeting = NSVCD_MEETS_SOMETIMES;
   if (a->meeting == NSVCD_MEETS_UNKNOWN) return;
   a->why = NSVCD_WHY_NOTHING;
@@ -432,8 +393,9 @@ static nsvcd_result nsvcd__range_begin(const nsvcd_checker *c, nsvcd_body_pair p
   nsvcd_range_options *o = &r->options;
   if (!nsvcd__is_length(o->clearance)) return NSVCD_ERROR_CLEARANCE;
   if (o->boxes > NSVCD_MAX_BOXES) return NSVCD_ERROR_COUNT;
-  o->boxes = o->boxes ? o->boxes : NSVCD__RANGE_BOXES;
-  r->capacity = o->boxes + 1;
+  o->boxes = o->boxes ? o->boxes : NSVCD_MAX_BOXES;
+  o->units = o->units ? o->units : NSVCD__RANGE_UNITS;
+  r->capacity = o->boxes < NSVCD__KEPT_BOXES ? o->boxes + 1 : NSVCD__KEPT_BOXES;
   r->random = o->seed;
   nsvcd__span_begin(scene, pair, &r->span);
   r->answer.joints = r->span.joints;

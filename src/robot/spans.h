@@ -8,7 +8,8 @@
 // of its centre, joints may change one after another. So from the centre d changes by no more than
 //   sum over joints k of h_k r_k
 // A joint that mimics another reaches its multiplier times as far.
-// r_k: of all configurations of the box. It is that of the centre, and what the joints between the
+// r_k: of all configurations of the box. It is that of the centre, where no point is farther than
+// the part's sphere or the corners of its box, and what the joints between the
 // part and k add: the chord 2 r sin(h / 2) of each, h up to pi, or h if it slides.
 // Source: this library.
 #pragma once
@@ -51,6 +52,10 @@ typedef struct nsvcd__span {
   // of the path: the box, half its widths, and r of the banner
   double low[NSVCD_MAX_JOINTS], high[NSVCD_MAX_JOINTS];
   double half[NSVCD_MAX_JOINTS], arms[NSVCD_MAX_JOINTS];
+  // of the way: half the widths, and the sines of half of these
+  double reach[NSVCD_MAX_JOINTS], sines[NSVCD_MAX_JOINTS];
+  // metres: what both parts go beyond their triangles, and these beyond those of their meshes
+  double beyond;
   // metres: no point of a probe is farther from its position
   double probe_extent;
 } nsvcd__span;
@@ -77,34 +82,62 @@ static void nsvcd__values_of(const nsvcd_joint *joint, double *low, double *high
   *high = is_endless ? 6.28318530717960 : joint->high;
 }
 
-// A sphere about a part, or a probe, in the world.
+// A sphere about a part, or a probe, in the world; and a box about the part.
 typedef struct nsvcd__rider {
   nsvcd__d3 centre;
   double radius;
+  // the middle of the box, and from there to its sides; 0 of a probe
+  nsvcd__d3 middle, sides[3];
 } nsvcd__rider;
 
 static nsvcd__rider nsvcd__rider_of(const nsvcd_checker *c, const nsvcd__links *at,
                                     size_t part) {
   const nsvcd__member *m = &c->members[part];
   const nsvcd__dpose *frame = &at->frames[c->scene->parts[part].link];
-  const nsvcd__rider out = {nsvcd__dpose_apply(frame, m->centre), m->radius};
+  const nsvcd__dpose at_part = nsvcd__dpose_mul(frame, &m->frame);
+  nsvcd__rider out;
+  out.centre = nsvcd__dpose_apply(frame, m->centre);
+  out.radius = m->radius;
+  out.middle = nsvcd__dpose_apply(&at_part, m->middle);
+  for (size_t k = 0; k < 3; k++) {
+    nsvcd__d3 side = {0, 0, 0};
+    // distances are those of triangles
+    nsvcd__d3_set_axis(&side, k, 1.000001 * (nsvcd__d3_axis(m->half, k) - m->round));
+    out.sides[k] = nsvcd__dquat_rotate(at_part.rotation, side);
+  }
   return out;
 }
 
+// The farthest that a point of a rider is from an axis through a point: no farther than a corner of
+// its box, nor than its sphere reaches.
+static double nsvcd__across(const nsvcd__rider *rider, nsvcd__d3 axis, nsvcd__d3 foot) {
+  const nsvcd__d3 off = nsvcd__d3_cross(axis, nsvcd__d3_sub(rider->centre, foot));
+  const nsvcd__d3 middle = nsvcd__d3_cross(axis, nsvcd__d3_sub(rider->middle, foot));
+  double most = 0;
+  for (size_t corner = 0; corner < 8; corner++) {
+    nsvcd__d3 out = middle;
+    for (size_t k = 0; k < 3; k++)
+      out =
+          nsvcd__d3_fma(corner >> k & 1 ? 1 : -1, nsvcd__d3_cross(axis, rider->sides[k]), out);
+    most = nsvcd__max(most, nsvcd__d3_dot(out, out));
+  }
+  return nsvcd__min(nsvcd__d3_norm(off) + rider->radius, sqrt(most));
+}
+
 // r of the banner, of the joints of a way from one part to the other, which reach so far to either
-// side. balls: each rides on the link of one part.
+// side. riders: each on the link of one part.
 static void nsvcd__arms_along(const nsvcd_checker *c, const size_t *way, size_t count,
                               const double *reach, const nsvcd__links *at,
-                              const nsvcd__rider *balls, double *arms) {
+                              const nsvcd__rider *riders, double *arms) {
   for (size_t side = 0; side < 2; side++) {
     double moved = 0;
     for (size_t n = 0; n < count; n++) {
       const size_t k = side ? count - 1 - n : n;
       const size_t j = way[k];
-      const nsvcd__d3 off = nsvcd__d3_sub(balls[side].centre, at->frames[j + 1].position);
-      const double across = nsvcd__d3_norm(nsvcd__d3_cross(at->axes[j], off));
+      const double across =
+          nsvcd__across(&riders[side], at->axes[j], at->frames[j + 1].position);
       const int slides = nsvcd__slides(c, j);
-      const double arm = slides ? 1 : across + balls[side].radius + moved;
+      const double arm = slides ? 1 : across + moved;
       const double half = nsvcd__min(reach[k], 3.141592653589793);
       moved += slides ? reach[k] : 2 * arm * sin(0.5 * half);
       arms[k] = side ? nsvcd__min(arms[k], arm) : arm;
@@ -114,14 +147,14 @@ static void nsvcd__arms_along(const nsvcd_checker *c, const size_t *way, size_t 
 
 // Those of the joints of a span's path, each with all that it drives.
 static void nsvcd__arms_between(nsvcd__span *s, const nsvcd__links *at,
-                                const nsvcd__rider *balls) {
+                                const nsvcd__rider *riders) {
   double rates[NSVCD_MAX_JOINTS], arms[NSVCD_MAX_JOINTS];
-  double reach[NSVCD_MAX_JOINTS] = {0};
   for (size_t k = 0; k < s->way_count; k++) {
     rates[k] = fabs(nsvcd__rate(&s->scene, s->way[k]));
-    reach[k] = rates[k] * s->half[s->drivers[k]];
+    s->reach[k] = rates[k] * s->half[s->drivers[k]];
+    s->sines[k] = sin(0.5 * nsvcd__min(s->reach[k], 3.141592653589793));
   }
-  nsvcd__arms_along(s->checker, s->way, s->way_count, reach, at, balls, arms);
+  nsvcd__arms_along(s->checker, s->way, s->way_count, s->reach, at, riders, arms);
   for (size_t k = 0; k < s->joints; k++) s->arms[k] = 0;
   for (size_t k = 0; k < s->way_count; k++) s->arms[s->drivers[k]] += rates[k] * arms[k];
 }
@@ -157,9 +190,9 @@ NSVCDDEF nsvcd_result nsvcd_pair_travel(const nsvcd_checker *c, nsvcd_body_pair 
     half[k] = nsvcd__max(high[j] - middle, middle - low[j]) * (1 + 1e-15);
   }
   nsvcd__place_links(c, middles, &at);
-  const nsvcd__rider balls[2] = {nsvcd__rider_of(c, &at, pair.a),
-                                 nsvcd__rider_of(c, &at, pair.b)};
-  nsvcd__arms_along(c, way, count, half, &at, balls, arms);
+  const nsvcd__rider riders[2] = {nsvcd__rider_of(c, &at, pair.a),
+                                  nsvcd__rider_of(c, &at, pair.b)};
+  nsvcd__arms_along(c, way, count, half, &at, riders, arms);
   for (size_t j = 0; j < scene->joint_count; j++) moved[j] = 0;
   for (size_t k = 0; k < count; k++) moved[way[k]] = half[k] * arms[k] * (1 + 1e-9);
   return NSVCD_OK;
@@ -238,6 +271,11 @@ static void nsvcd__span_begin(const nsvcd_scene *scene, nsvcd_body_pair pair, ns
     s->at[j] = 0.5 * (low + high);
   }
   nsvcd__follow(scene, 1, s->at);
+  for (size_t n = 0; n < 2; n++) {
+    const nsvcd_body_facts facts = nsvcd_body_describe(s->parts[n].body);
+    const double scale = s->parts[n].scale > 0 ? (double)s->parts[n].scale : 1;
+    s->beyond += scale * ((double)facts.convex_radius + (double)facts.quantization_error);
+  }
   // of all bodies the one with the fewest triangles
   nsvcd_part *probe = &s->parts[2];
   size_t fewest = SIZE_MAX;

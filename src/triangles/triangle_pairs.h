@@ -51,17 +51,24 @@ static void nsvcd__pair_arm(const nsvcd__arc *arc, nsvcd__triangle_pair *pair) {
   pair->from_axis = nsvcd__min(pair->from_axis, pair->from_origin);
 }
 
-static nsvcd__triangle_pair nsvcd__pair_of(const nsvcd__proof *p, size_t i, size_t j, size_t a,
-                                           size_t b) {
+// Of bodies at rest.
+static nsvcd__triangle_pair nsvcd__still_pair_of(const nsvcd__proof *p, size_t i, size_t j,
+                                                 size_t a, size_t b) {
   nsvcd__triangle_pair pair = {i, j, a, b, {{0, 0, 0}}, {{0, 0, 0}}, 0, 0, 0, 0, 0, 0};
   nsvcd__patch_triangle(&p->moving, i, a, pair.moving);
   nsvcd__patch_triangle(&p->fixed, j, b, pair.fixed);
-  nsvcd__pair_arm(&p->arcs.arc, &pair);
-  pair.speed = p->arcs.arc.speed + p->arcs.arc.turn * p->arcs.arc.scale * pair.from_axis;
   pair.rounding =
       NSVCD__SAME_POSITION * ((double)p->given.lengths + nsvcd__d3_norm(p->arcs.arc.from));
-  pair.margin = pair.rounding + nsvcd__off_meshes(p);
-  pair.margin += NSVCD__SAME_POSITION * nsvcd__d3_norm(p->arcs.arc.moved);
+  return pair;
+}
+
+static nsvcd__triangle_pair nsvcd__pair_of(const nsvcd__proof *p, size_t i, size_t j, size_t a,
+                                           size_t b) {
+  nsvcd__triangle_pair pair = nsvcd__still_pair_of(p, i, j, a, b);
+  nsvcd__pair_arm(&p->arcs.arc, &pair);
+  pair.speed = p->arcs.arc.speed + p->arcs.arc.turn * p->arcs.arc.scale * pair.from_axis;
+  const double moved = NSVCD__SAME_POSITION * nsvcd__d3_norm(p->arcs.arc.moved);
+  pair.margin = pair.rounding + nsvcd__off_meshes(p) + moved;
   pair.close = pair.margin + NSVCD__TOO_NEAR * (double)p->given.lengths + p->given.tolerance;
   return pair;
 }

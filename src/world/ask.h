@@ -140,6 +140,8 @@ typedef struct nsvcd__tally {
   size_t safe_by;
   float safe_time;
   nsvcd_pose safe;
+  // the contact that this body stops it at, if it has a normal
+  nsvcd_contact stop;
 } nsvcd__tally;
 
 static nsvcd__tally nsvcd__tally_of(const nsvcd__asker *q) {
@@ -174,6 +176,7 @@ static void nsvcd__tally_add(nsvcd__tally *t, size_t id, const nsvcd_answer *ans
   t->safe_by = id;
   t->safe_time = answer->safe.time;
   t->safe = answer->safe.a;
+  t->stop = answer->nearest;
 }
 
 // Asks about all bodies; HIT only until one is hit.

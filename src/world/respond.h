@@ -28,6 +28,9 @@ typedef struct nsvcd__hold {
   double lacks;
   // metres a second, along the normal: at least
   double least;
+  // what a unit impulse along the normal changes: the speed there, and the spin
+  double give;
+  nsvcd__d3 turn;
   // so far: along the normal, and across it
   double pushed;
   nsvcd__d3 rubbed;
@@ -55,41 +58,41 @@ static nsvcd__d3 nsvcd__speed_at(const nsvcd__thing *thing, nsvcd__d3 arm) {
   return nsvcd__d3_add(thing->linear, nsvcd__d3_cross(thing->angular, arm));
 }
 
-// The change of speed at an arm, along a direction, by a unit impulse there.
-static double nsvcd__give_of(const nsvcd__thing *thing, nsvcd__d3 arm, nsvcd__d3 along) {
+// The change of speed at an arm, along a direction, by a unit impulse there; *turn: of its spin.
+static double nsvcd__give_of(const nsvcd__thing *thing, nsvcd__d3 arm, nsvcd__d3 along,
+                             nsvcd__d3 *turn) {
   const nsvcd__d3 moment = nsvcd__d3_cross(arm, along);
-  return thing->inverse_mass + nsvcd__d3_dot(moment, nsvcd__spun_by(thing, moment));
+  *turn = nsvcd__spun_by(thing, moment);
+  return thing->inverse_mass + nsvcd__d3_dot(moment, *turn);
 }
 
-static void nsvcd__take_impulse(nsvcd__thing *thing, nsvcd__d3 arm, nsvcd__d3 impulse) {
-  const nsvcd__d3 moment = nsvcd__d3_cross(arm, impulse);
-  thing->linear = nsvcd__d3_fma(thing->inverse_mass, impulse, thing->linear);
-  thing->angular = nsvcd__d3_add(thing->angular, nsvcd__spun_by(thing, moment));
-}
-
-// soft: a fraction of what the contact gives way by to a unit impulse, by which it gives way besides
-// Returns by how much the impulse along the normal has changed.
+// soft: a fraction of what the contact gives way by to a unit impulse, by which it gives way
+// besides. Returns by how much the impulse along the normal has changed.
 static double nsvcd__respond_at(nsvcd__thing *thing, nsvcd__hold *hold, double soft) {
   const nsvcd__d3 speed = nsvcd__d3_sub(nsvcd__speed_at(thing, hold->arm), hold->speed);
   const double along = nsvcd__d3_dot(speed, hold->normal);
-  const double give = nsvcd__give_of(thing, hold->arm, hold->normal);
   const double before = hold->pushed;
-  const double lacks = hold->least - along - soft * give * before;
-  hold->pushed = nsvcd__max(before + lacks / (give + soft * give), 0);
+  const double lacks = hold->least - along - soft * hold->give * before;
+  hold->pushed = nsvcd__max(before + lacks / (hold->give + soft * hold->give), 0);
   const double more = hold->pushed - before;
-  nsvcd__take_impulse(thing, hold->arm, nsvcd__d3_scale(hold->normal, more));
-  if (!(thing->friction > 0)) return fabs(more);
+  thing->linear = nsvcd__d3_fma(more * thing->inverse_mass, hold->normal, thing->linear);
+  thing->angular = nsvcd__d3_fma(more, hold->turn, thing->angular);
+  if (!(thing->friction > 0) || !(before + hold->pushed > 0)) return fabs(more);
   const nsvcd__d3 now = nsvcd__d3_sub(nsvcd__speed_at(thing, hold->arm), hold->speed);
   const nsvcd__d3 aside = nsvcd__d3_fma(-nsvcd__d3_dot(now, hold->normal), hold->normal, now);
   const double slip = nsvcd__d3_norm(aside);
   if (!(slip > 1e-12)) return fabs(more);
+  nsvcd__d3 turn;
   const nsvcd__d3 u = nsvcd__d3_scale(aside, 1 / slip);
-  const double across = nsvcd__give_of(thing, hold->arm, u);
+  const double across = nsvcd__give_of(thing, hold->arm, u, &turn);
   const double most = thing->friction * hold->pushed;
   nsvcd__d3 rubbed = nsvcd__d3_fma(-slip / across, u, hold->rubbed);
   const double length = nsvcd__d3_norm(rubbed);
   if (length > most) rubbed = nsvcd__d3_scale(rubbed, most / length);
-  nsvcd__take_impulse(thing, hold->arm, nsvcd__d3_sub(rubbed, hold->rubbed));
+  const nsvcd__d3 rubs = nsvcd__d3_sub(rubbed, hold->rubbed);
+  thing->linear = nsvcd__d3_fma(thing->inverse_mass, rubs, thing->linear);
+  thing->angular =
+      nsvcd__d3_add(thing->angular, nsvcd__spun_by(thing, nsvcd__d3_cross(hold->arm, rubs)));
   hold->rubbed = rubbed;
   return fabs(more);
 }
@@ -98,6 +101,8 @@ static void nsvcd__respond(nsvcd__thing *thing, nsvcd__hold *holds, size_t count
                            double soft) {
   double most = 0;
   double change = 1;
+  for (size_t k = 0; k < count; k++)
+    holds[k].give = nsvcd__give_of(thing, holds[k].arm, holds[k].normal, &holds[k].turn);
   for (int round = 0; round < NSVCD__IMPULSE_ROUNDS && change > NSVCD__IMPULSE_SAME * most;
        round++) {
     change = 0;

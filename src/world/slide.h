@@ -14,8 +14,11 @@
 #define NSVCD__USUAL_CLEARANCE 0.005
 #define NSVCD__USUAL_ROUNDS 4
 #define NSVCD__USUAL_SLOPE 0.7
+// of the margin: how exact stops are
+#define NSVCD__STOPS_WITHIN 0.05
 // of the margin: a way in which no point goes farther is none for what rubs against something
-#define NSVCD__STILL 0.02
+#define NSVCD__STILL 0.05
+#define NSVCD__MOST_STOPS 4
 // radians: the most that a body turns in a way
 #define NSVCD__MOST_TURN 2.0
 
@@ -39,6 +42,9 @@ typedef struct nsvcd__slide {
   size_t met;
   // a character's: of its speed, that is left for the rest of the frame
   double pace;
+  // what has stopped it in this frame: contacts that a look may leave out, where many are
+  size_t stop_count;
+  nsvcd_world_contact stops[NSVCD__MOST_STOPS];
   // what pushed in rounds before, and then all that there is at the pose now
   size_t kept, contact_count;
   nsvcd_world_contact contacts[NSVCD_WORLD_CONTACTS];
@@ -79,9 +85,12 @@ static void nsvcd__slide_look(nsvcd__slide *s) {
   for (size_t k = 0; k < s->contact_count; k++)
     if (s->contacts[k].impulse > 0) s->contacts[kept++] = s->contacts[k];
   s->kept = kept < NSVCD_WORLD_CONTACTS / 2 ? kept : NSVCD_WORLD_CONTACTS / 2;
-  const size_t room = NSVCD_WORLD_CONTACTS - s->kept;
-  s->contact_count = s->kept + nsvcd__contacts_at(&s->ask, &s->pose, 1 - s->left, within, room,
-                                                  s->contacts + s->kept, room);
+  const size_t room = NSVCD_WORLD_CONTACTS - s->kept - s->stop_count;
+  memcpy(s->contacts + s->kept, s->stops, s->stop_count * sizeof *s->stops);
+  nsvcd_world_contact *found = s->contacts + s->kept + s->stop_count;
+  s->contact_count =
+      s->kept + s->stop_count +
+      nsvcd__contacts_at(&s->ask, &s->pose, 1 - s->left, within, room, found, room);
   s->ground = NULL;
   for (size_t k = s->kept; k < s->contact_count; k++) {
     const nsvcd_contact *c = &s->contacts[k].contact;
@@ -147,6 +156,13 @@ static double nsvcd__go(nsvcd__slide *s, const nsvcd_pose *to, int at_once) {
   if (s->ask.result) return 0;
   s->met = t.first;
   s->pose = t.safe;
+  const float *n = t.stop.normal;
+  if (t.safe_by && n[0] * n[0] + n[1] * n[1] + n[2] * n[2] > 0.5f && !at_once &&
+      s->stop_count < NSVCD__MOST_STOPS) {
+    s->stops[s->stop_count].body = t.safe_by;
+    s->stops[s->stop_count].impulse = 0;
+    s->stops[s->stop_count++].contact = t.stop;
+  }
   if (!at_once) s->left *= 1 - (double)t.safe_time;
   return (double)t.safe_time;
 }
@@ -314,7 +330,7 @@ static nsvcd_result nsvcd__slide_begin(const nsvcd_world *world, size_t id,
   s->up = nsvcd__d3_load(given->up);
   s->slope = given->slope > 0 ? (double)given->slope : NSVCD__USUAL_SLOPE;
   s->ask.question.clearance = (float)s->clearance;
-  s->ask.question.to = (float)(0.25 * s->margin);
+  s->ask.question.to = (float)(NSVCD__STOPS_WITHIN * s->margin);
   nsvcd__thing *thing = &s->thing;
   const nsvcd__dpose pose = nsvcd__dpose_of(&s->pose);
   const float *inertia = given->inertia;
