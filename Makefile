@@ -13,7 +13,7 @@ CFLAGS ?= -O3 -march=native
 endif
 WARNINGS = -Wall -Wextra
 ALL_CFLAGS = $(CFLAGS) -std=c99 $(WARNINGS)
-EXTRAS = extras/neuralsvcd_certify.h extras/neuralsvcd_robot.h
+EXTRAS = extras/neuralsvcd_certify.h extras/neuralsvcd_robot.h extras/neuralsvcd_world.h
 LIBRARY = neuralsvcd.h weights.h $(EXTRAS)
 ROOMS = $(wildcard src/*.h src/*/*.h)
 # What the examples and the tests share.
