@@ -13821,6 +13821,11 @@ static nsvcd__transform nsvcd__transform_of(const nsvcd__dtransform *at) {
   out.position = nsvcd__f3_round(at->position);
   return out;
 }
+
+static void nsvcd__pose_triangle(const nsvcd__dtransform *at, const nsvcd__d3 *corners,
+                                 nsvcd__d3 *out) {
+  for (size_t k = 0; k < 3; k++) out[k] = nsvcd__d3_transform(at, corners[k]);
+}
 #endif  // NSVCD_NO_PROOF
 
 // ------------------------------------------------------------------------- triangles/motion_bounds
@@ -13946,11 +13951,6 @@ static NSVCD__NOINLINE nsvcd__d3 nsvcd__face_direction(const nsvcd__d3 *t) {
     longest = nsvcd__max(longest, nsvcd__d3_distance2(t[k], t[(k + 1) % 3]));
   const double length = nsvcd__d3_norm(n);
   return nsvcd__d3_scale(n, length > 1e-9 * longest ? 1 / length : 0);
-}
-
-static void nsvcd__pose_triangle(const nsvcd__dtransform *at, const nsvcd__d3 *corners,
-                                 nsvcd__d3 *out) {
-  for (size_t k = 0; k < 3; k++) out[k] = nsvcd__d3_transform(at, corners[k]);
 }
 
 // Two triangles, one of each body, in their frames: the caller's own, of which entries may be
@@ -14614,8 +14614,8 @@ typedef struct nsvcd__posed_pair {
 
 static void nsvcd__posed_pair_of(const nsvcd__proof *p, const nsvcd__dtransform *at,
                                  const nsvcd__near_pair *item, nsvcd__posed_pair *out) {
-  out->pair = nsvcd__still_pair_of(p, item->moving_patch, item->fixed_patch, item->moving_entry,
-                             item->fixed_entry);
+  out->pair = nsvcd__still_pair_of(p, item->moving_patch, item->fixed_patch,
+                                   item->moving_entry, item->fixed_entry);
   nsvcd__pose_triangle(at, out->pair.moving, out->posed);
 }
 

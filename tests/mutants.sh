@@ -46,7 +46,7 @@ groups' spheres without slack|nsvcd__above((double)f->margins[i] + rounding);|ns
 groups' spheres over the first half|for (size_t k = 0; k < count + !count; k++) {|for (size_t k = 0; k < (count + 1) / 2 + !count; k++) {
 held plane without slack|g->margins[j] * length + highest;|highest;
 heights over another plane|above->plane != memo->plane \|\| above->key != key|above->key != key
-pair of coarse copies as if they were the meshes|pair.margin = pair.rounding + nsvcd__off_meshes(p);|pair.margin = pair.rounding;
+pair of coarse copies as if they were the meshes|pair.rounding + nsvcd__off_meshes(p) + moved;|pair.rounding + moved;
 round: tangents from the other side|const double fall = -nsvcd__d3_dot(p->separating, moved);|const double fall = nsvcd__d3_dot(p->separating, moved);
 round: tangents a little too far|const double until = fall > 0 ? nsvcd__min(end, at + room / fall) : end;|const double until = fall > 0 ? nsvcd__min(end, at + above / fall) : end;
 doubts forgotten|    nsvcd__keep_unresolved(p, pair, u0, u1);\n    return NSVCD__DONE;|    return NSVCD__DONE;

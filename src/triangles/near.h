@@ -58,8 +58,8 @@ typedef struct nsvcd__posed_pair {
 
 static void nsvcd__posed_pair_of(const nsvcd__proof *p, const nsvcd__dtransform *at,
                                  const nsvcd__near_pair *item, nsvcd__posed_pair *out) {
-  out->pair = nsvcd__still_pair_of(p, item->moving_patch, item->fixed_patch, item->moving_entry,
-                             item->fixed_entry);
+  out->pair = nsvcd__still_pair_of(p, item->moving_patch, item->fixed_patch,
+                                   item->moving_entry, item->fixed_entry);
   nsvcd__pose_triangle(at, out->pair.moving, out->posed);
 }
 

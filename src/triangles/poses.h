@@ -147,4 +147,9 @@ static nsvcd__transform nsvcd__transform_of(const nsvcd__dtransform *at) {
   out.position = nsvcd__f3_round(at->position);
   return out;
 }
+
+static void nsvcd__pose_triangle(const nsvcd__dtransform *at, const nsvcd__d3 *corners,
+                                 nsvcd__d3 *out) {
+  for (size_t k = 0; k < 3; k++) out[k] = nsvcd__d3_transform(at, corners[k]);
+}
 #endif  // NSVCD_NO_PROOF

@@ -15,11 +15,6 @@ static NSVCD__NOINLINE nsvcd__d3 nsvcd__face_direction(const nsvcd__d3 *t) {
   return nsvcd__d3_scale(n, length > 1e-9 * longest ? 1 / length : 0);
 }
 
-static void nsvcd__pose_triangle(const nsvcd__dtransform *at, const nsvcd__d3 *corners,
-                                 nsvcd__d3 *out) {
-  for (size_t k = 0; k < 3; k++) out[k] = nsvcd__d3_transform(at, corners[k]);
-}
-
 // Two triangles, one of each body, in their frames: the caller's own, of which entries may be
 // pieces. A plane that separates a triangle separates its pieces; what meets a triangle meets the
 // mesh.
