@@ -75,6 +75,16 @@ for bad in '--frames 0' '--frames' '--seed x' '--speed 3' '--problems'; do
   expect 2 'what is that' build/game $bad
 done
 
+# The loop of examples/README.md, word by word, as C99 and C++11: a box on a floor, beside a wall, in a corner, on an elevator.
+awk '/^## Ask, go there, respond/ { part = 1 } part && /^```c$/ { on = 1; next } /^```/ { on = part = part && !on } on' \
+  examples/README.md >"$dir/loop.inc"
+test "$(wc -l <"$dir/loop.inc")" -eq 8 || fail "the loop of examples/README.md has $(wc -l <"$dir/loop.inc") lines, not 8"
+for language in 'c99 -x c' 'c++11 -x c++'; do
+  # shellcheck disable=SC2086
+  ${CC:-cc} -std=$language -O1 -Wall -Wextra -Werror -Wno-unused-function -I. -I"$dir" tests/loop.c -o "$dir/loop" -lm &&
+    "$dir/loop" >"$dir/out" || fail "the loop of examples/README.md, $language: $(cat "$dir/out")"
+done
+
 # The planners: free motions by the oracle's word (the exit status), and a whole picture.
 for planner in dish_insertion bimanual_insertion mining_site; do
   rm -f build/$planner.svg

@@ -180,4 +180,50 @@ SHAPES_DEF void level_make(shapes_mesh *mesh, double side, size_t triangles, uin
   level_things(mesh, side, triangles / 2, seed);
 }
 
+// The level of examples/game: ground of 16 x 16 metres, things on it, and, where all happens, stairs
+// and a pit. parts: (4) triangles before each of these three, and all.
+SHAPES_DEF void level_with_pit(shapes_mesh *mesh, size_t *parts) {
+  shapes_rng rng = {5};
+  level_ground(mesh, 16, 100);
+  parts[0] = 0;
+  parts[1] = mesh->triangles;
+  for (int n = 0; n < 64; n++) {
+    const size_t first = mesh->vertices;
+    const double turn = shapes_uniform(&rng, 0, SHAPES_PI);
+    const double q[4] = {0, 0, sin(0.5 * turn), cos(0.5 * turn)};
+    const double x = 2 * (n % 8) - 7;
+    const double y = 2 * (n / 8) - 7;
+    if (fabs(x) < 6 && y > -4 && y < 4) continue;
+    level_thing(mesh, shapes_pick(&rng, 6), 2500, &rng);
+    shapes_place(mesh, first, q, x, y, level_height(x, y) - 0.05);
+  }
+  parts[2] = mesh->triangles;
+  const size_t stairs = mesh->vertices;
+  level_stairs(mesh, 1.4, 0.28, 0.17, 7);
+  shapes_place(mesh, stairs, NULL, -3, -2, level_height(-3, -2));
+  for (int k = 0; k < 4; k++) {  // a pit
+    const size_t wall = mesh->vertices;
+    shapes_box(mesh, k < 2 ? 2.4 : 0.15, k < 2 ? 0.15 : 2.55, 1, 8);
+    shapes_place(mesh, wall, NULL, k < 2 ? 0 : 2.4 * k - 6, k < 2 ? 2.4 * k - 0.1 : 1.1, 0.1);
+  }
+  parts[3] = mesh->triangles;
+}
+
+// Twelve things that fall into it, most of them concave; n: how fine round ones are.
+#define LEVEL_PROPS 12
+SHAPES_DEF void level_props(shapes_mesh *s, int n) {
+  shapes_mug(&s[0], 0.06, 0.13, 0.008, n);
+  shapes_bowl(&s[1], 0.16, 0.09, 0.012, n);
+  shapes_torus(&s[2], 0.12, 0.04, n, n / 2);
+  shapes_box(&s[3], 0.24, 0.18, 0.2, 1);
+  shapes_chair(&s[4], 0.24, 0.5, 0.03);
+  shapes_bottle(&s[5], 0.06, 0.28, n);
+  shapes_gear(&s[6], 0.14, 0.03, 0.06, 20);
+  shapes_drawer(&s[7], 0.3, 0.2, 0.12, 0.015);
+  shapes_knot(&s[8], 0.09, 0.03, 2 * n, n / 4);
+  level_boulder(&s[9], 0.14, n / 2, 1);
+  shapes_l_bracket(&s[10], 0.24, 0.3, 0.06, 0.12);
+  shapes_slot(&s[11], 0.26, 0.2, 0.14, 0.1, 0.1);
+}
+
 #endif

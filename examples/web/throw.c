@@ -1,18 +1,19 @@
-// throw.c - a room to throw things in, as a WebAssembly module for throw.js: scenery/physics.h
-// moves the things and scenery/walker.h one who walks among them. Each move is proven free before it is
-// made, so that no two ever overlap; throw_overlaps asks whether that is so.
+// throw.c - a room to throw things in, as a WebAssembly module for throw.js: things, and one who
+// walks among them, are bodies of an nsvcd_world (scenery/props.h). Each move is proven free before it
+// is made, so that no two ever overlap; throw_overlaps asks whether that is so.
 //
-// The module imports nothing, not even a clock. throw.js reads the structs in linear memory: all
-// their fields have four bytes on wasm32.
+// The module imports nothing, not even a clock. throw.js reads the structs in linear memory.
 #define NSVCD_NO_STDIO
 #define NSVCD_NO_NETWORK
 #define NEURALSVCD_IMPLEMENTATION
 #include "../../neuralsvcd.h"
+#define NEURALSVCD_WORLD_IMPLEMENTATION
+#include "../../extras/neuralsvcd_world.h"
 #include "../scenery/level.h"
-#include "../scenery/walker.h"
+#include "../scenery/props.h"
 
 // throw.js counts on it.
-_Static_assert(sizeof(physics_thing) == 4 * 24 && offsetof(physics_thing, asleep) == 4 * 20, "");
+_Static_assert(offsetof(props_thing, asleep) == 4 && offsetof(props_thing, pose) == 8, "");
 
 #define EXPORT(name) __attribute__((export_name(#name))) name
 
@@ -24,9 +25,9 @@ enum { KINDS = 9, WALKER = KINDS, ROOM, FLOOR, WALLS, BUILT, MESHES };
 #define BOTTOM (-8.0f)      // metres: what fell as low as that is gone
 
 static shapes_mesh meshes[MESHES];
-static physics_shape shapes[ROOM + 1];
-static physics_world *world;
-static physics_walker walker;
+static props_shape shapes[ROOM + 1];
+static props_world *world;
+static size_t walker;
 static float walking[2];
 static size_t thrown[MOST], next;
 static shapes_rng rng = {2026};
@@ -107,14 +108,12 @@ static nsvcd_result make_shapes(void) {
   cut(&meshes[BUILT], room, walls, room->triangles);
   for (size_t k = 0; k <= ROOM; k++) {
     nsvcd_encode_options options = {0};
-    const shapes_mesh *m = &meshes[k];
     nsvcd_result result = NSVCD_ERROR_MEMORY;
     options.patch_radius = k == ROOM ? 0.2f : 0;
-    if (!m->failed && k == WALKER)
+    if (k == WALKER && !meshes[k].failed)
       result = nsvcd_encode_capsule(from, to, CAPSULE_RADIUS, NULL, &shapes[k].body);
-    else if (!m->failed)
-      result = physics_encode(m->positions, m->vertices, m->indices, m->triangles, &options,
-                              k != ROOM, &shapes[k]);
+    else if (k != WALKER)
+      result = props_encode(&meshes[k], &options, k != ROOM, &shapes[k]);
     if (result) return result;
   }
   return NSVCD_OK;
@@ -129,13 +128,14 @@ nsvcd_result EXPORT(throw_init)(void) {
   const nsvcd_result result = shapes[ROOM].body ? NSVCD_OK : make_shapes();
   if (result) return result;
   free(world);
-  world = physics_new(shapes, MOST + 2);
+  world = props_new(MOST + 2);
   if (!world) return NSVCD_ERROR_MEMORY;
-  physics_add(world, ROOM, 1, 0, &origin);
-  const physics_walker first = {physics_add(world, WALKER, 1, 0, &start), 0.25f, 0.7f, 40, 0, 0};
-  walker = first;
+  world->gap = 0.002f;
+  props_add(world, &shapes[ROOM], ROOM, 1, 0, &origin);
+  walker = props_add(world, &shapes[WALKER], WALKER, 1, 40, &start);
+  props_make_walker(&world->things[walker], 0.25f);
   walking[0] = walking[1] = 0;
-  for (size_t n = 0; n < MOST; n++) thrown[n] = PHYSICS_NOTHING;
+  memset(thrown, 0, sizeof thrown);
   return NSVCD_OK;
 }
 
@@ -147,11 +147,12 @@ int EXPORT(throw_thing)(size_t kind, float x, float y, float z, float to_x, floa
   size_t *slot = &thrown[next % MOST];
   shapes_quaternion(&rng, q);
   for (int k = 0; k < 4; k++) pose.rotation[k] = (float)q[k];
-  if (*slot != PHYSICS_NOTHING) physics_remove(world, *slot);
-  *slot = physics_add(world, kind, 1, 5, &pose);
-  if (*slot == PHYSICS_NOTHING) return 0;
-  world->things[*slot].velocity = physics_of(to_x, to_y, to_z);
-  world->things[*slot].spin = physics_of(3 * pose.rotation[2], 3 * pose.rotation[0], 2);
+  props_remove(world, *slot);
+  *slot = props_add(world, &shapes[kind], (int)kind, 1, 5, &pose);
+  if (*slot == NSVCD_NOBODY) return 0;
+  const nsvcd_velocity velocity = {{to_x, to_y, to_z},
+                                   {3 * pose.rotation[2], 3 * pose.rotation[0], 2}};
+  world->things[*slot].velocity = velocity;
   next++;
   return 1;
 }
@@ -163,45 +164,45 @@ void EXPORT(throw_walk)(float x, float y) {
 }
 
 nsvcd_result EXPORT(throw_step)(float seconds) {
-  physics_walk(world, &walker, walking[0], walking[1], seconds);
-  const nsvcd_result result = physics_step(world, seconds);
-  for (size_t n = 0; n < MOST; n++) {
-    if (thrown[n] == PHYSICS_NOTHING) continue;
-    if (world->things[thrown[n]].pose.position[2] > BOTTOM) continue;
-    physics_remove(world, thrown[n]);
-    thrown[n] = PHYSICS_NOTHING;
-  }
+  memcpy(world->things[walker].velocity.linear, walking, sizeof walking);
+  const nsvcd_result result = props_step(world, seconds);
+  for (size_t n = 0; n < MOST; n++)
+    if (thrown[n] && world->things[thrown[n]].pose.position[2] < BOTTOM) {
+      props_remove(world, thrown[n]);
+      thrown[n] = NSVCD_NOBODY;
+    }
   return result;
 }
 
 // How many of what can move are not proven to be apart from all else, as they stand.
 size_t EXPORT(throw_overlaps)(void) {
-  const physics_counts counts = world->counts;
-  const float clearance = world->clearance;
   size_t overlaps = 0;
-  world->clearance = 0;
-  for (size_t i = 1; i < world->count; i++) {
-    int is_free = 1;
-    if (world->things[i].shape == PHYSICS_NOTHING) continue;
-    physics_look(world, i, &world->things[i].pose);
-    for (size_t k = 0; k < world->near_count; k++)
-      is_free &= world->answers[k].verdict == NSVCD_FREE;
-    overlaps += !is_free;
+  for (size_t n = 0; n < world->count; n++) {
+    nsvcd_world_question question;
+    nsvcd_world_answer answer;
+    memset(&question, 0, sizeof question);
+    question.self = world->order[n];
+    if (world->things[question.self].kind == ROOM) continue;
+    overlaps += nsvcd_world_sweep(world->world, &question, world->workspace, world->workspace_size,
+                                  &answer) != NSVCD_OK ||
+                answer.verdict != NSVCD_FREE;
   }
-  world->clearance = clearance;
-  world->counts = counts;
   return overlaps;
 }
 
-const physics_thing *EXPORT(throw_things)(void) {
+// One after the other, those that are not there too, and how many bytes each has.
+const props_thing *EXPORT(throw_things)(void) {
   return world->things;
 }
 size_t EXPORT(throw_count)(void) {
-  return world->count;
+  return world->most + 1;
 }
-// Since throw_init.
-const physics_counts *EXPORT(throw_counts)(void) {
-  return &world->counts;
+size_t EXPORT(throw_size)(void) {
+  return sizeof(props_thing);
+}
+// Since throw_init: questions, and contacts.
+const size_t *EXPORT(throw_counts)(void) {
+  return world->counts;
 }
 const shapes_mesh *EXPORT(throw_mesh)(size_t which) {
   return &meshes[which];

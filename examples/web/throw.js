@@ -6,7 +6,6 @@ const find = (id) => document.getElementById(id);
 // As throw.c has them.
 const KINDS = ['mug', 'bowl', 'torus', 'box', 'chair', 'bottle', 'gear', 'knot', 'boulder'];
 const [WALKER, ROOM, FLOOR, WALLS, BUILT] = [9, 10, 11, 12, 13];
-const THING = 24;  // words of a physics_thing
 const NOTHING = 0xffffffff;
 
 const STEP = 1 / 60;
@@ -43,14 +42,14 @@ function mesh(which) {  // shapes_mesh
 }
 // The walker and what was thrown.
 function things() {
-  const at = c.throw_things();
   const list = [];
-  for (let i = 1; i < c.throw_count(); i++) {
-    const f = floats(at + 4 * THING * i, THING);
-    const w = words(at + 4 * THING * i, THING);
-    if (w[0] !== NOTHING)
-      list.push({kind: w[0], asleep: w[20] !== 0,
-        pose: {position: [...f.slice(3, 6)], rotation: [...f.slice(6, 10)]}});
+  for (let i = 0; i < c.throw_count(); i++) {  // props_thing
+    const at = c.throw_things() + c.throw_size() * i;
+    const [kind, asleep] = words(at, 2);
+    const pose = floats(at + 8, 7);
+    if (kind !== NOTHING && kind !== ROOM)
+      list.push({kind, asleep: asleep !== 0,
+        pose: {position: [...pose.slice(0, 3)], rotation: [...pose.slice(3, 7)]}});
   }
   return list;
 }

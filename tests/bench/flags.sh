@@ -41,7 +41,7 @@ for round in $(seq "${ROUNDS:-5}"); do
       done
     done
     test -n "${ALL:-}" || (cd "$dir" && mkdir -p build && "./game_$name" --frames 300 |
-      sed -n 's/^asking about them: median \([0-9.]*\), mean \([0-9.]*\),.*/\1 \2/p' >>"$dir/$name.game.frame")
+      sed -n 's/^a frame: median \([0-9.]*\), mean \([0-9.]*\),.*/\1 \2/p' >>"$dir/$name.game.frame")
   done <"$dir/builds"
 done
 
