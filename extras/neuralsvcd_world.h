@@ -27,6 +27,8 @@
 //     world           bodies at their places; who may meet whom
 //     ask             a mover against all that it comes near
 //     respond         what contacts leave of a speed
+//     ways            contacts, and ways as far as they are free
+//     walk            characters: grounds, walls and steps
 //     slide           a frame of a body
 //
 #ifndef NEURALSVCD_WORLD_H
@@ -2090,8 +2092,9 @@ static nsvcd__thing nsvcd__leaving(const nsvcd__thing *thing, const nsvcd__hold 
   return out;
 }
 
-// ------------------------------------------------------------------------------------- world/slide
-// In: a body of a world, its speed and a time. Out: it is elsewhere, by a way that is proven free.
+// -------------------------------------------------------------------------------------- world/ways
+// In: a body that moves for a frame. Out: its contacts, its speed without what points into them,
+// and its way at that speed, as far as it is proven free.
 //
 // THE LOOP. At a pose, all contacts within twice the margin are known: what points into them is
 // taken off the speed before anything is asked. So what rests asks about no way at all, and what
@@ -2303,7 +2306,8 @@ static double nsvcd__travel_left(const nsvcd__slide *s) {
   return speed * s->left * s->seconds;
 }
 
-// ---- a character
+// -------------------------------------------------------------------------------------- world/walk
+// In: a character that stands, or stood. Out: it walks on grounds, along walls, up and down steps.
 
 static nsvcd__d3 nsvcd__flat_part(const nsvcd__slide *s, nsvcd__d3 a) {
   return nsvcd__d3_fma(-nsvcd__d3_dot(a, s->up), s->up, a);
@@ -2386,7 +2390,8 @@ static int nsvcd__is_before_step(const nsvcd__slide *s) {
   return 0;
 }
 
-// ---- a frame
+// ------------------------------------------------------------------------------------- world/slide
+// In: a body of a world, its speed and a time. Out: it is elsewhere, by a way that is proven free.
 
 static int nsvcd__is_amount(float x) {
   return nsvcd__is_finite(x) && x >= 0 && x <= 1e12f;
