@@ -444,7 +444,10 @@ static void climbs_steps_and_goes_down(void) {
     keeps_clear(&a);
     CHECK_NEAR(place(&a, 0), tall ? 0.75 - REST : 2, 2e-3);
     CHECK_NEAR(place(&a, 2), 0.25 + REST + (tall ? 0 : step), 1e-3);
-    for (int f = 0; f < 120; f++) frame(&a, -1, 0);
+    for (int f = 0; f < 120; f++) {
+      frame(&a, -1, 0);
+      CHECK(a.answer.ground != NSVCD_NOBODY);
+    }
     keeps_clear(&a);
     CHECK_NEAR(place(&a, 0), tall ? 0.75 - REST - 2 : 0, 2e-3);
     CHECK_NEAR(place(&a, 2), 0.25 + REST, 1e-3);
