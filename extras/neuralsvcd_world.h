@@ -2351,7 +2351,8 @@ static int nsvcd__climb(nsvcd__slide *s) {
   const double step = (double)s->given->step;
   const nsvcd_pose start = s->pose;
   const double time = s->left * s->seconds * s->pace;
-  const nsvcd__d3 way = nsvcd__d3_scale(nsvcd__flat_part(s, s->thing.linear), time);
+  const nsvcd__d3 own = nsvcd__d3_sub(s->thing.linear, s->ridden);
+  const nsvcd__d3 way = nsvcd__d3_scale(nsvcd__flat_part(s, own), time);
   const double risen = step * nsvcd__go_by(s, nsvcd__d3_scale(s->up, step));
   const double gone = nsvcd__go_by(s, way);
   const double drop = risen + s->margin;
@@ -2524,9 +2525,8 @@ static void nsvcd__tell_slide(nsvcd__slide *s, nsvcd_velocity *velocity,
                               nsvcd_slide_answer *out) {
   const double used = 1 - s->lost;
   out->pose = s->pose;
-  const nsvcd__d3 linear =
-      nsvcd__d3_sub(nsvcd__d3_scale(s->thing.linear, used), nsvcd__d3_scale(s->ridden, used));
-  nsvcd__f3_store(nsvcd__f3_round(linear), velocity->linear);
+  const nsvcd__d3 own = nsvcd__d3_sub(s->thing.linear, s->ridden);
+  nsvcd__f3_store(nsvcd__f3_round(nsvcd__d3_scale(own, used)), velocity->linear);
   nsvcd__f3_store(nsvcd__f3_round(nsvcd__d3_scale(s->thing.angular, used)), velocity->angular);
   out->spent = (float)used;
   if (s->ground) {

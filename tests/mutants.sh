@@ -524,7 +524,6 @@ mimics: steps of the leader alone|r->jacobian[i][k] += rate * r->jacobian[n][k];
 world: boxes of turns without their bend|const double bend = 0.126 * turn * turn * shape->reach;|const double bend = 0 * turn;
 world: boxes of one size|out.half = nsvcd__d3_scale(out.half, scale);|
 world: boxes above as they were|tree->nodes[n].box = nsvcd__box_of_children(tree, \&tree->nodes[n]);|
-world: the wrong sibling|nodes[above].child[nodes[above].child[0] == leaf]|nodes[above].child[0]
 world: what moves stays in the tree|if (!is_new \&\& is_within) return;|if (!is_new) return;
 world: a driven body where it is now alone|way, r->is_driven ? 2 : 1, 0);|way, 1, 0);
 world: a driven body at rest|mover->count = q->at_once ? 1 : 2;|mover->count = 1;
@@ -550,11 +549,10 @@ slide: rests on what is gone|if (!r \|\| r->moved > before->clock) return 0;|
 slide: rests whatever comes|if (r->is_driven \|\| r->moved > before->clock) return 0;|
 slide: rests in the way of doors|return is_short \&\& !nsvcd__is_driven_near(s);|return is_short;
 slide: creeps for good|nsvcd__travel_left(s) <= most \|\| (touches \&\& !memcmp(to, \&s->pose, sizeof *to));|nsvcd__travel_left(s) <= most;
-slide: a climb that failed leaves its contacts|s->pose = start;\n  if (is_higher) nsvcd__slide_look(s);|s->pose = start;
 slide: up what is too steep|if (!s->ground \&\& into > 0) s->thing.linear = nsvcd__d3_fma(into, away, s->thing.linear);|
 slide: walls that lean are ramps|if (s->ground) h->normal = away;|
 slide: friction without an end|const double most = thing->friction * hold->pushed;|const double most = 1e9;
-slide: nothing bounces|h->least = nsvcd__max(h->least, (double)s->given->restitution * into);|
+slide: nothing bounces|h->least = nsvcd__max(h->least, (double)s->given->restitution * into);|(void)0;
 slide: the rest of the frame is lost|if (!at_once) s->left *= 1 - (double)t.safe_time;|if (!at_once) s->left = 0;
 slide: stays at the clearance|left[k].least = NSVCD__LEAVES * nsvcd__max(holds[k].lacks, 0) / seconds;|left[k].least = 0;
 slide: no way down|if (stood \&\& !s.ground \&\& given->step > 0 \&\& rises <= 0) nsvcd__step_down(\&s);|

@@ -444,7 +444,10 @@ static void climbs_steps_and_goes_down(void) {
     keeps_clear(&a);
     CHECK_NEAR(place(&a, 0), tall ? 0.75 - REST : 2, 2e-3);
     CHECK_NEAR(place(&a, 2), 0.25 + REST + (tall ? 0 : step), 1e-3);
-    for (int f = 0; f < 120; f++) frame(&a, -1, 0);
+    for (int f = 0; f < 120; f++) {
+      frame(&a, -1, 0);
+      CHECK(a.answer.ground != NSVCD_NOBODY);
+    }
     keeps_clear(&a);
     CHECK_NEAR(place(&a, 0), tall ? 0.75 - REST - 2 : 0, 2e-3);
     CHECK_NEAR(place(&a, 2), 0.25 + REST, 1e-3);
@@ -523,7 +526,7 @@ static void does_not_step_below_a_low_ceiling(void) {
   stage_end(&s);
 }
 
-static void walks_on_an_elevator_and_a_turntable(void) {
+static void walks_on_an_elevator(void) {
   stage s = stage_begin();
   const size_t lift = add_floor(&s);
   const size_t id = add_cube(&s, 0, 0, 0.2512);
@@ -538,6 +541,30 @@ static void walks_on_an_elevator_and_a_turntable(void) {
   CHECK_NEAR(place(&a, 0), 2, 2e-3);
   CHECK_NEAR(place(&a, 2), 2.25 + REST, 2e-3);
   stage_end(&s);
+}
+
+// On a train that goes forward, back up a step: as fast as on the ground.
+static void climbs_on_a_train(void) {
+  for (int back = 0; back < 2; back++) {
+    stage s = stage_begin();
+    const double side = back ? -1 : 1;
+    const size_t train[2] = {
+        add_floor(&s), stage_add(&s, thing_box(2, 10, 0.1), pose_of(2 * side, 0, 0.0501), 1)};
+    const size_t id = add_cube(&s, 0, 0, 0.2512);
+    actor a = character_of(&s, id, 0.2f);
+    for (int f = 0; f < 120; f++) {
+      for (int k = 0; k < 2; k++) {
+        nsvcd_pose to = stage_pose(&s, train[k]);
+        to.position[0] += 2 * FRAME;
+        CHECK_EQ(nsvcd_world_drive(s.world, train[k], &to), NSVCD_OK);
+      }
+      frame(&a, (float)side, 0);
+    }
+    keeps_clear(&a);
+    CHECK_NEAR(place(&a, 0), 4 + 2 * side, 5e-3);
+    CHECK_NEAR(place(&a, 2), 0.35 + REST, 1e-3);
+    stage_end(&s);
+  }
 }
 
 static void between_two_movers(void) {
@@ -791,7 +818,8 @@ void test_slide(void) {
   RUN(walks_on_slopes);
   RUN(does_not_rise_along_a_steep_slope);
   RUN(does_not_step_below_a_low_ceiling);
-  RUN(walks_on_an_elevator_and_a_turntable);
+  RUN(walks_on_an_elevator);
+  RUN(climbs_on_a_train);
   RUN(between_two_movers);
   RUN(nothing_overlaps_in_a_pit);
   RUN(the_same_frames_to_the_bit);

@@ -44,7 +44,8 @@ static int nsvcd__climb(nsvcd__slide *s) {
   const double step = (double)s->given->step;
   const nsvcd_pose start = s->pose;
   const double time = s->left * s->seconds * s->pace;
-  const nsvcd__d3 way = nsvcd__d3_scale(nsvcd__flat_part(s, s->thing.linear), time);
+  const nsvcd__d3 own = nsvcd__d3_sub(s->thing.linear, s->ridden);
+  const nsvcd__d3 way = nsvcd__d3_scale(nsvcd__flat_part(s, own), time);
   const double risen = step * nsvcd__go_by(s, nsvcd__d3_scale(s->up, step));
   const double gone = nsvcd__go_by(s, way);
   const double drop = risen + s->margin;
