@@ -8,6 +8,7 @@
 // as that one is deep satisfies all, and nearly the shortest is found by projections (Agmon 1954).
 // The way displaced by it is then asked about without a slop: what is proven is proven of that way.
 #pragma once
+#include "../interface/contacts.h"
 #include "world.h"
 
 // bodies whose push-outs are joined, at most
