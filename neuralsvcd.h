@@ -60,6 +60,7 @@
 //   nsvcd_sweep_gradient  a question -> the network's answer, and its derivatives by the poses
 //   nsvcd_plan            a start and a goal -> a smooth motion of joints that hits nothing
 //   extras/neuralsvcd_robot.h    a robot's joints: is their motion free? Find one that is
+//   extras/neuralsvcd_world.h    one body against all others: may it move? Slide it for a frame
 //   extras/neuralsvcd_certify.h  an answer -> bytes that prove it, which others can check
 //
 // OPTIONS, defined before the implementation is included
@@ -1871,7 +1872,7 @@ static const char nsvcd__result_texts[] =
     "draws or noise is out of range\0"
     "velocity, acceleration, jerk, collision, duration or margin is not finite, "
     "or seeds or check too large\0"
-    "a world is changed while it is asked or changed\0"
+    "the world is changed at the same time\0"
     "this build computes wrongly: see the compiler, and its flags\0"
     "unknown result\0";
 

@@ -27,6 +27,8 @@
 //     world           bodies at their places; who may meet whom
 //     ask             a mover against all that it comes near
 //     respond         what contacts leave of a speed
+//     ways            contacts, and ways as far as they are free
+//     walk            characters: grounds, walls and steps
 //     slide           a frame of a body
 //
 #ifndef NEURALSVCD_WORLD_H
@@ -113,8 +115,8 @@ typedef struct nsvcd_world_answer {
   size_t body;
   // it is free of all bodies before `low`, and in contact with one at `high`
   nsvcd_range time;
-  // FIRST: where the mover may go. This pose, as it is in floats, and the way to it are proven to be
-  // free of all bodies. It is the start if that is not free
+  // FIRST: where the mover may go. This pose, as it is in floats, and the way to it are proven to
+  // be free of all bodies. It is the start if that is not free
   float safe_time;
   nsvcd_pose safe;
   // with a slop: how the mover was pushed out, of all that it touched at once
@@ -142,8 +144,8 @@ NSVCDDEF nsvcd_result nsvcd_world_begin(void *memory, size_t size, size_t most,
 //   id          of add: not NULL; set to the body's id, from 1 on, or left as it was on failure.
 //               Ids of removed bodies are used again
 //   threads     one at a time, and none may ask: what is caught of that is NSVCD_ERROR_WORLD
-//   errors      ARGUMENT, BODY, VERSION, TRIANGLES, POSE, QUATERNION, SCALE, PIVOT, COUNT (the world
-//               has room for no more bodies), INDEX (`id` is no body's), WORLD
+//   errors      ARGUMENT, BODY, VERSION, TRIANGLES, POSE, QUATERNION, SCALE, PIVOT, COUNT (there
+//               is no room for more bodies), INDEX (`id` is no body's), WORLD
 NSVCDDEF nsvcd_result nsvcd_world_add(nsvcd_world *world, const nsvcd_world_body *body,
                                       size_t *id);
 NSVCDDEF nsvcd_result nsvcd_world_move(nsvcd_world *world, size_t id, const nsvcd_pose *pose);
@@ -182,7 +184,8 @@ NSVCDDEF nsvcd_result nsvcd_world_list(const nsvcd_world *world,
                                        size_t workspace_size, size_t *ids, size_t most,
                                        size_t *count);
 
-// Lists the pairs of bodies whose boxes, over this frame, come within a distance: who may meet whom.
+// Lists the pairs of bodies whose boxes, over this frame, come within a distance: who may meet
+// whom.
 //   pairs      (most)
 //   count      not NULL; how many there are, which may be more than `most`
 //   errors     ARGUMENT, DISTANCE (`distance`), WORLD
@@ -204,7 +207,8 @@ typedef struct nsvcd_slide_options {
   // metres: as high a step it climbs; and the least cosine between up and the normal of a ground
   // that it stands on, default 0.7
   float step, slope;
-  // how often in a frame it goes on after a contact; default 4
+  // how often in a frame it goes on after a contact; default 4. Before driven bodies four times as
+  // often
   size_t rounds;
   // units of each question, as question.work
   size_t work;
@@ -1533,8 +1537,8 @@ NSVCDDEF nsvcd_result nsvcd_world_pairs(const nsvcd_world *world, float distance
 // In: a question about a mover and all that it comes near. Out: one answer.
 //
 // Each body that is near is asked about by itself. The earliest of their times is the answer's, and
-// up to there all of them are free. The pose at that time, as it is in floats, may be off the way by
-// a few units of their last place: so it is asked about once more, of the others.
+// up to there all of them are free. The pose at that time, as it is in floats, may be off the way
+// by a few units of their last place: so it is asked about once more, of the others.
 //
 // With a slop each body's answer has a push-out of its own. One that is as long along each of these
 // as that one is deep satisfies all, and nearly the shortest is found by projections (Agmon 1954).
@@ -1624,7 +1628,8 @@ static nsvcd_result nsvcd__asker_begin(const nsvcd_world *world,
   if (asked->self != NSVCD_NOBODY && !self) return NSVCD_ERROR_INDEX;
   if (given->b.body || given->b.poses || (!self && !given->a.body))
     return NSVCD_ERROR_ARGUMENT;
-  if (given->method == NSVCD_METHOD_NETWORK) return NSVCD_ERROR_METHOD;
+  if (given->method != NSVCD_METHOD_DEFAULT && given->method != NSVCD_METHOD_PROOF)
+    return NSVCD_ERROR_METHOD;
   q->world = world;
   q->question = *given;
   q->question.method = NSVCD_METHOD_PROOF;
@@ -1768,6 +1773,14 @@ static nsvcd__d3 nsvcd__push_out_of_all(const nsvcd__asker *asked) {
 
 // ---- where the mover may go
 
+// A pose displaced, as it is in floats.
+static nsvcd_pose nsvcd__displaced(const nsvcd_pose *pose, nsvcd__d3 by) {
+  nsvcd_pose out = *pose;
+  const nsvcd__d3 at = nsvcd__d3_add(nsvcd__d3_load(pose->position), by);
+  nsvcd__f3_store(nsvcd__f3_round(at), out.position);
+  return out;
+}
+
 // The pose of a way at a time in [0,1].
 static nsvcd_pose nsvcd__pose_on_way(const nsvcd_mover *way, const nsvcd__d3 pivot, double t) {
   const double all = (double)(way->count - 1);
@@ -1862,8 +1875,8 @@ static size_t nsvcd__contacts_at(nsvcd__asker *asked, const nsvcd_pose *pose, do
 // poses that are displaced by a push-out, at most
 #define NSVCD__DISPLACED 64
 
-static void nsvcd__world_answer(nsvcd__asker *q, const nsvcd__tally *t, int each,
-                                nsvcd_world_answer *out) {
+static void nsvcd__tell_all(nsvcd__asker *q, const nsvcd__tally *t, int each,
+                            nsvcd_world_answer *out) {
   const nsvcd_question *asked = &q->question;
   const double usual = (double)NSVCD_DEFAULT_TO * q->shape.reach;
   const double to = asked->to > 0 ? (double)asked->to : usual;
@@ -1902,11 +1915,8 @@ NSVCDDEF nsvcd_result nsvcd_world_sweep(const nsvcd_world *world,
     const size_t count = q.question.a.count;
     if (count > NSVCD__DISPLACED) return NSVCD_ERROR_POSES;
     const nsvcd__d3 by = nsvcd__push_out_of_all(&q);
-    for (size_t k = 0; k < count; k++) {
-      displaced[k] = q.question.a.poses[k];
-      const nsvcd__d3 at = nsvcd__d3_add(nsvcd__d3_load(displaced[k].position), by);
-      nsvcd__f3_store(nsvcd__f3_round(at), displaced[k].position);
-    }
+    for (size_t k = 0; k < count; k++)
+      displaced[k] = nsvcd__displaced(&q.question.a.poses[k], by);
     nsvcd__f3_store(nsvcd__f3_round(by), out.push_out);
     out.depth = (float)nsvcd__d3_norm(by);
     q.question.slop = 0;
@@ -1914,7 +1924,7 @@ NSVCDDEF nsvcd_result nsvcd_world_sweep(const nsvcd_world *world,
   }
   nsvcd__tally t = nsvcd__ask_all(&q);
   if (q.question.ask == NSVCD_ASK_FIRST && t.first) nsvcd__make_safe(&q, &t);
-  nsvcd__world_answer(&q, &t, manifold, &out);
+  nsvcd__tell_all(&q, &t, manifold, &out);
   if ((changes & 1) || changes != world->changes) return NSVCD_ERROR_WORLD;
   if (q.result) return q.result;
   *answer = out;
@@ -1952,11 +1962,11 @@ NSVCDDEF nsvcd_result nsvcd_world_list(const nsvcd_world *world,
 // ----------------------------------------------------------------------------------- world/respond
 // In: a body's speed and the contacts that it has. Out: its speed without what points into them.
 //
-// Sequential impulses (Catto, Iterative dynamics with temporal coherence, 2006), of one body against
-// others that rest or are driven: round after round each contact takes the impulse that its own
-// speed asks for, in sum never a pull, and friction up to its share of that. For a body that does
-// not turn and has no friction the limit is the speed nearest to the given one that points into no
-// contact.
+// Sequential impulses (Catto, Iterative dynamics with temporal coherence, 2006), of one body
+// against others that rest or are driven: round after round each contact takes the impulse that its
+// own speed asks for, in sum never a pull, and friction up to its share of that. For a body that
+// does not turn and has no friction the limit is the speed nearest to the given one that points
+// into no contact.
 //   A contact that is farther than where the body comes to rest may be approached, as fast as leads
 // there in this frame; one that is nearer is left, by a fifth of what is missing in a frame.
 
@@ -2082,8 +2092,9 @@ static nsvcd__thing nsvcd__leaving(const nsvcd__thing *thing, const nsvcd__hold 
   return out;
 }
 
-// ------------------------------------------------------------------------------------- world/slide
-// In: a body of a world, its speed and a time. Out: it is elsewhere, by a way that is proven free.
+// -------------------------------------------------------------------------------------- world/ways
+// In: a body that moves for a frame. Out: its contacts, its speed without what points into them,
+// and its way at that speed, as far as it is proven free.
 //
 // THE LOOP. At a pose, all contacts within twice the margin are known: what points into them is
 // taken off the speed before anything is asked. So what rests asks about no way at all, and what
@@ -2142,8 +2153,8 @@ static nsvcd__d3 nsvcd__pivot_at(const nsvcd__slide *s) {
   return nsvcd__pivot_of(&s->pose, s->ask.shape.pivot);
 }
 
-// How fast a driven body moves a point that is there now, and goes with it, on average over what is left
-// of the frame.
+// How fast a driven body moves a point that is there now, and goes with it, on average over what is
+// left of the frame.
 static nsvcd__d3 nsvcd__driven_speed(const nsvcd__slide *s, size_t id, nsvcd__d3 point) {
   const nsvcd__resident *r = &s->ask.world->residents[id];
   if (!r->is_driven || !(s->left > 0)) return nsvcd__d3_of(0, 0, 0);
@@ -2252,26 +2263,26 @@ static double nsvcd__go(nsvcd__slide *s, const nsvcd_pose *to, int at_once) {
 
 // At once, straight: how far, as a fraction.
 static double nsvcd__go_by(nsvcd__slide *s, nsvcd__d3 by) {
-  nsvcd_pose to = s->pose;
-  const nsvcd__d3 at = nsvcd__d3_add(nsvcd__d3_load(to.position), by);
-  nsvcd__f3_store(nsvcd__f3_round(at), to.position);
+  const nsvcd_pose to = nsvcd__displaced(&s->pose, by);
   return nsvcd__go(s, &to, 1);
 }
 
-// The body cannot go anywhere: it may be within the clearance of something, and then it is pushed
-// out. Returns whether it was.
+// The body cannot go on: something is within its clearance, or about to come there. It is pushed
+// out, to where it rests or else as far as it has to be. Returns whether it was.
 static int nsvcd__push_off(nsvcd__slide *s) {
   nsvcd__asker q = s->ask;
-  nsvcd_pose to = s->pose;
   q.since = 1 - s->left;
-  q.question.slop = (float)(s->clearance + s->margin);
   q.question.a.poses = &s->pose;
-  const nsvcd__d3 by = nsvcd__push_out_of_all(&q);
-  const nsvcd__d3 at = nsvcd__d3_add(nsvcd__d3_load(to.position), by);
-  nsvcd__f3_store(nsvcd__f3_round(at), to.position);
-  if (!(nsvcd__d3_dot(by, by) > 0) || !nsvcd__may_be_at(&s->ask, &to, q.since, 0)) return 0;
-  s->pose = to;
-  return 1;
+  for (int k = 0; k < 2; k++) {
+    q.question.clearance = (float)(s->clearance + (k ? 0 : 0.75 * s->margin));
+    q.question.slop = 2 * q.question.clearance;
+    const nsvcd__d3 by = nsvcd__push_out_of_all(&q);
+    const nsvcd_pose to = nsvcd__displaced(&s->pose, by);
+    if (!(nsvcd__d3_dot(by, by) > 0) || !nsvcd__may_be_at(&s->ask, &to, q.since, 0)) continue;
+    s->pose = to;
+    return 1;
+  }
+  return 0;
 }
 
 // Could a driven body come to where the body is?
@@ -2282,6 +2293,11 @@ static int nsvcd__is_driven_near(nsvcd__slide *s) {
   return 0;
 }
 
+// Is it a driven body that its last way met first?
+static int nsvcd__met_driven(const nsvcd__slide *s) {
+  return s->met != NSVCD_NOBODY && s->ask.world->residents[s->met].is_driven;
+}
+
 // How far points of the body go in the rest of the frame, at most, metres.
 static double nsvcd__travel_left(const nsvcd__slide *s) {
   const nsvcd__d3 linear = nsvcd__d3_add(s->thing.linear, s->leaves.linear);
@@ -2290,33 +2306,43 @@ static double nsvcd__travel_left(const nsvcd__slide *s) {
   return speed * s->left * s->seconds;
 }
 
-// ---- a character
+// -------------------------------------------------------------------------------------- world/walk
+// In: a character that stands, or stood. Out: it walks on grounds, along walls, up and down steps.
 
 static nsvcd__d3 nsvcd__flat_part(const nsvcd__slide *s, nsvcd__d3 a) {
   return nsvcd__d3_fma(-nsvcd__d3_dot(a, s->up), s->up, a);
 }
 
-// Whoever stands on a ground does not slide down it, and walks up it as fast as on the level; what
-// is too steep to stand on is a wall.
-static void nsvcd__stand(nsvcd__slide *s) {
-  if (!s->ground) return;
-  const nsvcd__d3 n = nsvcd__d3_load(s->ground->contact.normal);
-  const nsvcd__d3 own = nsvcd__d3_sub(s->thing.linear, s->ridden);
-  const int falls = nsvcd__d3_dot(own, s->up) < 0;
-  const double steep = nsvcd__d3_dot(n, s->up);
-  nsvcd__d3 walks = falls ? nsvcd__flat_part(s, own) : own;
-  const double into = -nsvcd__d3_dot(walks, n);
-  if (into > 0) walks = nsvcd__d3_fma(into / steep, s->up, walks);
-  // down to where it rests, if that is lower
-  const double least = falls ? s->holds[s->ground - s->contacts].least / steep : 0;
-  s->thing.linear = nsvcd__d3_add(nsvcd__d3_fma(least, s->up, walks), s->ridden);
+// What is too steep to stand on is a wall. For whoever stands it is upright; who is in the air
+// slides down it, but does not rise by walking into it.
+static void nsvcd__meet_walls(nsvcd__slide *s) {
   for (size_t k = s->kept; k < s->contact_count; k++) {
     nsvcd__hold *h = &s->holds[k];
-    const nsvcd__d3 flat = nsvcd__flat_part(s, h->normal);
-    const double steep = nsvcd__d3_norm(flat);
     const double rise = nsvcd__d3_dot(h->normal, s->up);
-    if (rise > 0 && rise < s->slope) h->normal = nsvcd__d3_scale(flat, 1 / steep);
+    if (!(rise > 0) || rise >= s->slope) continue;
+    const nsvcd__d3 flat = nsvcd__flat_part(s, h->normal);
+    const nsvcd__d3 away = nsvcd__d3_scale(flat, 1 / nsvcd__d3_norm(flat));
+    const double into = nsvcd__d3_dot(nsvcd__d3_sub(h->speed, s->thing.linear), away);
+    if (s->ground) h->normal = away;
+    if (!s->ground && into > 0) s->thing.linear = nsvcd__d3_fma(into, away, s->thing.linear);
   }
+}
+
+// Whoever stands on a ground does not slide down it, and walks up it as fast as on the level.
+static void nsvcd__stand(nsvcd__slide *s) {
+  if (s->ground) {
+    const nsvcd__d3 n = nsvcd__d3_load(s->ground->contact.normal);
+    const nsvcd__d3 own = nsvcd__d3_sub(s->thing.linear, s->ridden);
+    const int falls = nsvcd__d3_dot(own, s->up) < 0;
+    const double steep = nsvcd__d3_dot(n, s->up);
+    nsvcd__d3 walks = falls ? nsvcd__flat_part(s, own) : own;
+    const double into = -nsvcd__d3_dot(walks, n);
+    if (into > 0) walks = nsvcd__d3_fma(into / steep, s->up, walks);
+    // down to where it rests, if that is lower
+    const double least = falls ? s->holds[s->ground - s->contacts].least / steep : 0;
+    s->thing.linear = nsvcd__d3_add(nsvcd__d3_fma(least, s->up, walks), s->ridden);
+  }
+  nsvcd__meet_walls(s);
 }
 
 // Onto a step: up, along, and down again. What has been gone of the way is not gone again. Returns
@@ -2337,6 +2363,7 @@ static int nsvcd__climb(nsvcd__slide *s) {
     return 1;
   }
   s->pose = start;
+  if (is_higher) nsvcd__slide_look(s);
   return 0;
 }
 
@@ -2363,7 +2390,8 @@ static int nsvcd__is_before_step(const nsvcd__slide *s) {
   return 0;
 }
 
-// ---- a frame
+// ------------------------------------------------------------------------------------- world/slide
+// In: a body of a world, its speed and a time. Out: it is elsewhere, by a way that is proven free.
 
 static int nsvcd__is_amount(float x) {
   return nsvcd__is_finite(x) && x >= 0 && x <= 1e12f;
@@ -2428,11 +2456,15 @@ static nsvcd_result nsvcd__slide_begin(const nsvcd_world *world, size_t id,
   return NSVCD_OK;
 }
 
-// Does the body, as it is, need no way at all in this frame?
-static int nsvcd__is_still(nsvcd__slide *s) {
-  const int rubs = s->thing.friction > 0 && s->contact_count > s->kept;
+// Does the body, as it is, need no way at all in this frame? If it touches something, a way that
+// floats do not show is none.
+static int nsvcd__is_still(nsvcd__slide *s, const nsvcd_pose *to) {
+  const int touches = s->contact_count > s->kept;
+  const int rubs = s->thing.friction > 0 && touches;
   const double most = rubs ? NSVCD__STILL * s->margin : NSVCD__BOX_ROUNDING * s->margin;
-  return nsvcd__travel_left(s) <= most && !nsvcd__is_driven_near(s);
+  const int is_short =
+      nsvcd__travel_left(s) <= most || (touches && !memcmp(to, &s->pose, sizeof *to));
+  return is_short && !nsvcd__is_driven_near(s);
 }
 
 // Does it rest as it did in the frame before: is it told the same, and has nothing moved that it
@@ -2475,20 +2507,21 @@ static int nsvcd__slide_round(nsvcd__slide *s, int is_first, int *rests) {
   const double turn = nsvcd__d3_norm(thing->angular) * s->left * s->seconds;
   if (turn > NSVCD__MOST_TURN)
     thing->angular = nsvcd__d3_scale(thing->angular, NSVCD__MOST_TURN / turn);
-  if (nsvcd__is_still(s)) {
+  const nsvcd_pose to = nsvcd__aim(s, s->left * s->seconds);
+  if (nsvcd__is_still(s, &to)) {
     thing->linear = thing->angular = nsvcd__d3_of(0, 0, 0);
     s->left = 0;
     *rests = is_first;
     return 0;
   }
-  const nsvcd_pose to = nsvcd__aim(s, s->left * s->seconds);
   const double gone = nsvcd__go(s, &to, 0);
   if (s->ask.result || gone >= 1) return 0;
-  return gone > 0 || nsvcd__push_off(s);
+  if (gone > 0 && !nsvcd__met_driven(s)) return 1;
+  return nsvcd__push_off(s) || gone > 0;
 }
 
-static void nsvcd__slide_answer(nsvcd__slide *s, nsvcd_velocity *velocity,
-                                nsvcd_slide_answer *out) {
+static void nsvcd__tell_slide(nsvcd__slide *s, nsvcd_velocity *velocity,
+                              nsvcd_slide_answer *out) {
   const double used = 1 - s->lost;
   out->pose = s->pose;
   const nsvcd__d3 linear =
@@ -2515,6 +2548,7 @@ NSVCDDEF nsvcd_result nsvcd_world_slide(nsvcd_world *world, size_t id,
   nsvcd_slide_answer out;
   if (!world || !velocity || !answer) return NSVCD_ERROR_ARGUMENT;
   const nsvcd_slide_options *given = options ? options : &usual;
+  if (world->changes & 1) return NSVCD_ERROR_WORLD;
   nsvcd_result result =
       nsvcd__slide_begin(world, id, given, seconds, workspace, workspace_size, velocity, &s);
   if (result) return result;
@@ -2530,7 +2564,9 @@ NSVCDDEF nsvcd_result nsvcd_world_slide(nsvcd_world *world, size_t id,
   const size_t rounds = given->rounds ? given->rounds : NSVCD__USUAL_ROUNDS;
   int more = 1;
   int stood = 0;
-  for (size_t round = 0; round < rounds && more && s.left > 1e-4; round++) {
+  for (size_t round = 0; more && s.left > 1e-4; round++) {
+    // a driven body that turns is met again and again, and does not wait
+    if (round >= (nsvcd__met_driven(&s) ? 4 * rounds : rounds)) break;
     more = nsvcd__slide_round(&s, round == 0, &out.rests);
     if (round == 0) stood = s.ground != NULL;
   }
@@ -2554,7 +2590,7 @@ NSVCDDEF nsvcd_result nsvcd_world_slide(nsvcd_world *world, size_t id,
   if (!out.rests) result = nsvcd_world_move(world, id, &s.pose);
   if (result) return result;
   out.clock = world->clock;
-  nsvcd__slide_answer(&s, velocity, &out);
+  nsvcd__tell_slide(&s, velocity, &out);
   *answer = out;
   return NSVCD_OK;
 }

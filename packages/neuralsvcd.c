@@ -2,6 +2,8 @@
 #define NEURALSVCD_IMPLEMENTATION
 #define NEURALSVCD_CERTIFY_IMPLEMENTATION
 #define NEURALSVCD_ROBOT_IMPLEMENTATION
+#define NEURALSVCD_WORLD_IMPLEMENTATION
 #include "neuralsvcd.h"
 #include "extras/neuralsvcd_certify.h"
 #include "extras/neuralsvcd_robot.h"
+#include "extras/neuralsvcd_world.h"

@@ -60,6 +60,7 @@
 //   nsvcd_sweep_gradient  a question -> the network's answer, and its derivatives by the poses
 //   nsvcd_plan            a start and a goal -> a smooth motion of joints that hits nothing
 //   extras/neuralsvcd_robot.h    a robot's joints: is their motion free? Find one that is
+//   extras/neuralsvcd_world.h    one body against all others: may it move? Slide it for a frame
 //   extras/neuralsvcd_certify.h  an answer -> bytes that prove it, which others can check
 //
 // OPTIONS, defined before the implementation is included

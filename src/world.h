@@ -54,6 +54,8 @@ extern "C" {
 #include "world/world.h"    // bodies at their places; who may meet whom
 #include "world/ask.h"      // a mover against all that it comes near
 #include "world/respond.h"  // what contacts leave of a speed
+#include "world/ways.h"     // contacts, and ways as far as they are free
+#include "world/walk.h"     // characters: grounds, walls and steps
 #include "world/slide.h"    // a frame of a body
 
 #if defined(__GNUC__) || defined(__clang__)

@@ -12,22 +12,26 @@ cat >"$dir/twice.c" <<END
 #include "$here/neuralsvcd.h"
 #ifndef NSVCD_NO_PROOF
 #include "$here/extras/neuralsvcd_robot.h"
+#include "$here/extras/neuralsvcd_world.h"
 #endif
 #define NEURALSVCD_IMPLEMENTATION
 #define NEURALSVCD_CERTIFY_IMPLEMENTATION
 #define NEURALSVCD_ROBOT_IMPLEMENTATION
+#define NEURALSVCD_WORLD_IMPLEMENTATION
 #include "$here/neuralsvcd.h"
 #include "$here/neuralsvcd.h"
 #ifndef NSVCD_NO_PROOF
 #include "$here/extras/neuralsvcd_certify.h"
 #include "$here/extras/neuralsvcd_robot.h"
+#include "$here/extras/neuralsvcd_world.h"
 #include "$here/extras/neuralsvcd_certify.h"
 #include "$here/extras/neuralsvcd_robot.h"
+#include "$here/extras/neuralsvcd_world.h"
 #endif
 END
 printf '#include "%s/examples/verify/nsvcd_verify_robot.h"\n' "$here" "$here" >"$dir/checker.c"
 cp "$dir/checker.c" "$dir/checker.cc"
-printf '#include "%s/extras/neuralsvcd_certify.h"\n#include "%s/extras/neuralsvcd_robot.h"\n' "$here" "$here" >"$dir/user.c"  # declarations only, in a second file
+printf '#include "%s/extras/neuralsvcd_certify.h"\n#include "%s/extras/neuralsvcd_robot.h"\n#include "%s/extras/neuralsvcd_world.h"\n' "$here" "$here" "$here" >"$dir/user.c"  # declarations only, in a second file
 cp "$dir/twice.c" "$dir/twice.cc"
 cp "$dir/user.c" "$dir/user.cc"
 

@@ -47,6 +47,8 @@ void test_long(void);
 void test_broad_phase(void);
 void test_looks(void);
 void test_contacts(void);
+void test_world(void);
+void test_slide(void);
 void test_proof(void);
 void test_fits(void);
 void test_asks(void);
@@ -73,6 +75,7 @@ void promises_robots(void);
 void promises_postures(void);
 void promises_routes(void);
 void promises_plans(void);
+void promises_worlds(void);
 
 typedef struct test_file {
   const char *name;
@@ -97,6 +100,7 @@ static const test_file files[] = {
     PROMISES_OF(postures),
     PROMISES_OF(routes),
     PROMISES_OF(plans),
+    PROMISES_OF(worlds),
     // the sections of the header, in its order
     OF(math),
     OF(vectors),
@@ -115,6 +119,8 @@ static const test_file files[] = {
     OF(broad_phase),
     OF(looks),
     OF(contacts),
+    OF(world),
+    OF(slide),
     OF(proof),
     OF(fits),
     OF(asks),

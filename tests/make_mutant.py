@@ -9,7 +9,7 @@ import re
 import sys
 from pathlib import Path
 
-HEADERS = ("neuralsvcd.h", "extras/neuralsvcd_certify.h", "extras/neuralsvcd_robot.h")
+HEADERS = ("neuralsvcd.h", "extras/neuralsvcd_certify.h", "extras/neuralsvcd_robot.h", "extras/neuralsvcd_world.h")
 CHECKER = Path("examples/verify")
 
 

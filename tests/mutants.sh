@@ -1,7 +1,7 @@
 #!/bin/sh
 # Are the tests of the proof worth anything? Each mutant is the library with one mistake in it; tests/test_proof.c has to
 # fail on it, or, where its name begins with `level:`, `asks:`, `long:`, `exact:`, `floor:`, `solids:`, `round:`,
-# `robot:`, `looks:`, `contacts:`, `route_looks:`, `many_joints:`, `postures:`, `reach:`, `ranges:`, `allowances:`, `mimics:`, `merge:` or `cones:`, tests/test_level.c and so on; of `verify:` and `checker:` the mistake is in the checker of
+# `robot:`, `looks:`, `contacts:`, `world:`, `slide:`, `route_looks:`, `many_joints:`, `postures:`, `reach:`, `ranges:`, `allowances:`, `mimics:`, `merge:` or `cones:`, tests/test_level.c and so on; of `verify:` and `checker:` the mistake is in the checker of
 # certificates, examples/verify, and tests/test_certificate.c or tests/test_checker.c has to fail, of `fits:`
 # tests/test_fits.c, of `plans:` tests/forge.py, which needs build/svcd. Prints a line for each, and exits with 1 if one survives. An argument runs only the mutants whose
 # name contains it. Some 20 seconds each; PART=0 OF=16 WORK=folder: every 16th of them, in a folder of its own.
@@ -12,7 +12,7 @@ cd "$(dirname "$0")/.." || exit 1
 work=${WORK:-build/mutants}
 mkdir -p $work/tests/bench $work/examples/scenery $work/examples/verify
 cp weights.h $work/
-cp tests/test_proof.c tests/test_level.c tests/test_asks.c tests/test_long.c tests/test_exact.c tests/test_floor.c tests/test_solids.c tests/test_round.c tests/test_robot.c tests/test_looks.c tests/test_contacts.c tests/test_route_looks.c tests/test_many_joints.c tests/test_postures.c tests/test_reach.c tests/test_ranges.c tests/test_allowances.c tests/test_mimics.c tests/test_merge.c tests/test_cones.c tests/test_certificate.c tests/test_checker.c tests/test_fits.c tests/*.h $work/tests/
+cp tests/test_proof.c tests/test_level.c tests/test_asks.c tests/test_long.c tests/test_exact.c tests/test_floor.c tests/test_solids.c tests/test_round.c tests/test_robot.c tests/test_looks.c tests/test_contacts.c tests/test_world.c tests/test_slide.c tests/test_route_looks.c tests/test_many_joints.c tests/test_postures.c tests/test_reach.c tests/test_ranges.c tests/test_allowances.c tests/test_mimics.c tests/test_merge.c tests/test_cones.c tests/test_certificate.c tests/test_checker.c tests/test_fits.c tests/*.h $work/tests/
 cp tests/bench/*.h $work/tests/bench/
 cp examples/scenery/*.h $work/examples/scenery/
 cp examples/verify/verify.c $work/examples/verify/
@@ -521,6 +521,45 @@ mimics: a sweep of the leader alone|nsvcd__follow(\&s->scene, 1 + (along != NSVC
 mimics: a slope of the leader alone|slope[nsvcd__driver(c->scene, link - 1)] +=|slope[link - 1] +=
 mimics: turns of a fraction|return is_endless \&\& rate > floor(rate) ? NSVCD_ERROR_MIMIC : NSVCD_OK;|return NSVCD_OK;
 mimics: steps of the leader alone|r->jacobian[i][k] += rate * r->jacobian[n][k];|r->jacobian[i][k] += 0;
+world: boxes of turns without their bend|const double bend = 0.126 * turn * turn * shape->reach;|const double bend = 0 * turn;
+world: boxes of one size|out.half = nsvcd__d3_scale(out.half, scale);|
+world: boxes above as they were|tree->nodes[n].box = nsvcd__box_of_children(tree, \&tree->nodes[n]);|
+world: the wrong sibling|nodes[above].child[nodes[above].child[0] == leaf]|nodes[above].child[0]
+world: what moves stays in the tree|if (!is_new \&\& is_within) return;|if (!is_new) return;
+world: a driven body where it is now alone|way, r->is_driven ? 2 : 1, 0);|way, 1, 0);
+world: a driven body at rest|mover->count = q->at_once ? 1 : 2;|mover->count = 1;
+world: groups pass one way|!(groups \& other->passes) \&\& !(other->groups \& passes)|!(groups \& other->passes)
+world: pairs of what is fixed|if (n <= id \|\| (a->given.fixed \&\& b->given.fixed)) continue;|if (n <= id) continue;
+world: ids are lost|world->free = (uint32_t)id;|
+world: a box without the clearance|(double)q->question.clearance + (double)q->question.tolerance;|0;
+world: the last time|t->time.low = fminf(t->time.low, answer->time.low);|t->time.low = answer->time.low;
+world: safe of the first body|if (t->safe_by \&\& answer->safe.time >= t->safe_time) return;|if (t->safe_by) return;
+world: push-outs in sum|depths[k] - nsvcd__d3_dot(out, normals[k]);|depths[k];
+world: sensors stop|(r->given.sensor \&\& !q->with_sensors)|0
+world: meets itself|at == q->self \|\| (r->given|(r->given
+world: any other method|given->method != NSVCD_METHOD_DEFAULT \&\& given->method != NSVCD_METHOD_PROOF|given->method == NSVCD_METHOD_NETWORK
+world: changes within changes|if (world->changes \& 1) return 0;|
+world: a list as it comes|for (; at > 0 \&\& ids[at - 1] > id; at--)|for (; at > most;)
+slide: driven bodies from their start|s->ask.since = 1 - s->left;\n  s->ask.at_once = at_once;|s->ask.since = 0;\n  s->ask.at_once = at_once;
+slide: half the clearance|s->ask.question.clearance = (float)s->clearance;|s->ask.question.clearance = 0.5f * (float)s->clearance;
+slide: driven bodies without a speed|h->speed = nsvcd__driven_speed(s, s->contacts[k].body, on_other);|
+slide: nobody is caught|if (free_until < 1) out.caught = s.met;|
+slide: no way out|return nsvcd__push_off(s) \|\| gone > 0;|return gone > 0;
+slide: few rounds before doors|nsvcd__met_driven(\&s) ? 4 * rounds : rounds|rounds
+slide: rests on what is gone|if (!r \|\| r->moved > before->clock) return 0;|
+slide: rests whatever comes|if (r->is_driven \|\| r->moved > before->clock) return 0;|
+slide: rests in the way of doors|return is_short \&\& !nsvcd__is_driven_near(s);|return is_short;
+slide: creeps for good|nsvcd__travel_left(s) <= most \|\| (touches \&\& !memcmp(to, \&s->pose, sizeof *to));|nsvcd__travel_left(s) <= most;
+slide: a climb that failed leaves its contacts|s->pose = start;\n  if (is_higher) nsvcd__slide_look(s);|s->pose = start;
+slide: up what is too steep|if (!s->ground \&\& into > 0) s->thing.linear = nsvcd__d3_fma(into, away, s->thing.linear);|
+slide: walls that lean are ramps|if (s->ground) h->normal = away;|
+slide: friction without an end|const double most = thing->friction * hold->pushed;|const double most = 1e9;
+slide: nothing bounces|h->least = nsvcd__max(h->least, (double)s->given->restitution * into);|
+slide: the rest of the frame is lost|if (!at_once) s->left *= 1 - (double)t.safe_time;|if (!at_once) s->left = 0;
+slide: stays at the clearance|left[k].least = NSVCD__LEAVES * nsvcd__max(holds[k].lacks, 0) / seconds;|left[k].least = 0;
+slide: no way down|if (stood \&\& !s.ground \&\& given->step > 0 \&\& rises <= 0) nsvcd__step_down(\&s);|
+slide: a climb is no way|s->pace *= 1 - gone;|
+slide: nobody rides|s->ridden = nsvcd__driven_speed(s, s->ground->body, nsvcd__pivot_at(s));|
 LIST
 
 if [ -n "${DRY:-}" ]; then python3 tests/make_mutant.py --all $work/list && exit 0 || exit 1; fi
@@ -547,6 +586,8 @@ while IFS= read -r line; do
     robot:*) file=test_robot.c ;;
     looks:*) file=test_looks.c ;;
     contacts:*) file=test_contacts.c ;;
+    world:*) file=test_world.c ;;
+    slide:*) file=test_slide.c ;;
     route_looks:*) file=test_route_looks.c ;;
     many_joints:*) file=test_many_joints.c ;;
     ranges:*) file=test_ranges.c ;;

@@ -245,7 +245,7 @@ class Bench:
         (folder / "weights.h").symlink_to(ROOT / "weights.h")
         (folder / HEADER).write_text(text)
         (folder / "extras").symlink_to(ROOT / "extras")
-        extras = {"certificate": "extras/neuralsvcd_certify.h", "robot": "extras/neuralsvcd_robot.h"}
+        extras = {name: f"extras/neuralsvcd_{header}.h" for name, header in (("certificate", "certify"), ("robot", "robot"), ("world", "world"))}
         for path in [ROOT / "src/header.h", *(ROOT / "src").glob("*/*.h")]:
             room = folder / path.relative_to(ROOT)
             room.parent.mkdir(parents=True, exist_ok=True)

@@ -270,7 +270,7 @@ static double parting_of(const robot *r, nsvcd_body_pair pair, const double *box
                                   nsvcd__rider_of(s.checker, &at, 1)};
   nsvcd__arms_between(&s, &at, riders);
   const nsvcd__parting parting = nsvcd__best_parting(&s, &at, riders, 1e9);
-  if (least) *least = 10;
+  if (least) *least = 1.5 * parting.apart;
   for (size_t n = 0; n < 300 && least && parting.apart > 0; n++) {
     double q[NSVCD_MAX_JOINTS];
     memcpy(q, s.at, sizeof q);
@@ -280,7 +280,7 @@ static double parting_of(const robot *r, nsvcd_body_pair pair, const double *box
       q[s.path[k]] = s.low[k] + share * (s.high[k] - s.low[k]);
     }
     nsvcd__follow(&r->scene, 1, q);
-    *least = fmin(*least, robot_apart(r, &pair, q, 10));
+    *least = fmin(*least, robot_apart(r, &pair, q, *least));
   }
   free(memory);
   return parting.apart - s.beyond;
@@ -293,7 +293,7 @@ static void planes_part_no_less(void) {
   shapes_rng rng = {23};
   size_t told = 0;
   size_t tight = 0;
-  for (size_t trial = 0; trial < check_many(120); trial++) {
+  for (size_t trial = 0; trial < check_many(400); trial++) {
     double box[2 * NSVCD_MAX_JOINTS], least;
     robot_random_of(&r, &rng, 2 + (size_t)shapes_pick(&rng, 5));
     const nsvcd_body_pair pair = {0, (uint32_t)r.scene.joint_count - 1};
@@ -312,8 +312,8 @@ static void planes_part_no_less(void) {
     told += apart > 0;
     tight += apart > 0.7 * least;
   }
-  CHECK_GE(told, check_many(120) / 10);
-  CHECK_GE(tight, 2);
+  CHECK_GE(told, check_many(400) / 10);
+  CHECK_GE(tight, 5);
 }
 
 // An arm that is stretched away from a wall bends towards it: by (5 h^2) / 2 of its length if both of

@@ -83,7 +83,7 @@ static const char nsvcd__result_texts[] =
     "draws or noise is out of range\0"
     "velocity, acceleration, jerk, collision, duration or margin is not finite, "
     "or seeds or check too large\0"
-    "a world is changed while it is asked or changed\0"
+    "the world is changed at the same time\0"
     "this build computes wrongly: see the compiler, and its flags\0"
     "unknown result\0";
 

@@ -69,8 +69,8 @@ typedef struct nsvcd_world_answer {
   size_t body;
   // it is free of all bodies before `low`, and in contact with one at `high`
   nsvcd_range time;
-  // FIRST: where the mover may go. This pose, as it is in floats, and the way to it are proven to be
-  // free of all bodies. It is the start if that is not free
+  // FIRST: where the mover may go. This pose, as it is in floats, and the way to it are proven to
+  // be free of all bodies. It is the start if that is not free
   float safe_time;
   nsvcd_pose safe;
   // with a slop: how the mover was pushed out, of all that it touched at once
@@ -98,8 +98,8 @@ NSVCDDEF nsvcd_result nsvcd_world_begin(void *memory, size_t size, size_t most,
 //   id          of add: not NULL; set to the body's id, from 1 on, or left as it was on failure.
 //               Ids of removed bodies are used again
 //   threads     one at a time, and none may ask: what is caught of that is NSVCD_ERROR_WORLD
-//   errors      ARGUMENT, BODY, VERSION, TRIANGLES, POSE, QUATERNION, SCALE, PIVOT, COUNT (the world
-//               has room for no more bodies), INDEX (`id` is no body's), WORLD
+//   errors      ARGUMENT, BODY, VERSION, TRIANGLES, POSE, QUATERNION, SCALE, PIVOT, COUNT (there
+//               is no room for more bodies), INDEX (`id` is no body's), WORLD
 NSVCDDEF nsvcd_result nsvcd_world_add(nsvcd_world *world, const nsvcd_world_body *body,
                                       size_t *id);
 NSVCDDEF nsvcd_result nsvcd_world_move(nsvcd_world *world, size_t id, const nsvcd_pose *pose);
@@ -138,7 +138,8 @@ NSVCDDEF nsvcd_result nsvcd_world_list(const nsvcd_world *world,
                                        size_t workspace_size, size_t *ids, size_t most,
                                        size_t *count);
 
-// Lists the pairs of bodies whose boxes, over this frame, come within a distance: who may meet whom.
+// Lists the pairs of bodies whose boxes, over this frame, come within a distance: who may meet
+// whom.
 //   pairs      (most)
 //   count      not NULL; how many there are, which may be more than `most`
 //   errors     ARGUMENT, DISTANCE (`distance`), WORLD
@@ -160,7 +161,8 @@ typedef struct nsvcd_slide_options {
   // metres: as high a step it climbs; and the least cosine between up and the normal of a ground
   // that it stands on, default 0.7
   float step, slope;
-  // how often in a frame it goes on after a contact; default 4
+  // how often in a frame it goes on after a contact; default 4. Before driven bodies four times as
+  // often
   size_t rounds;
   // units of each question, as question.work
   size_t work;

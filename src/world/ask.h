@@ -1,8 +1,8 @@
 // In: a question about a mover and all that it comes near. Out: one answer.
 //
 // Each body that is near is asked about by itself. The earliest of their times is the answer's, and
-// up to there all of them are free. The pose at that time, as it is in floats, may be off the way by
-// a few units of their last place: so it is asked about once more, of the others.
+// up to there all of them are free. The pose at that time, as it is in floats, may be off the way
+// by a few units of their last place: so it is asked about once more, of the others.
 //
 // With a slop each body's answer has a push-out of its own. One that is as long along each of these
 // as that one is deep satisfies all, and nearly the shortest is found by projections (Agmon 1954).
@@ -95,7 +95,8 @@ static nsvcd_result nsvcd__asker_begin(const nsvcd_world *world,
   if (asked->self != NSVCD_NOBODY && !self) return NSVCD_ERROR_INDEX;
   if (given->b.body || given->b.poses || (!self && !given->a.body))
     return NSVCD_ERROR_ARGUMENT;
-  if (given->method == NSVCD_METHOD_NETWORK) return NSVCD_ERROR_METHOD;
+  if (given->method != NSVCD_METHOD_DEFAULT && given->method != NSVCD_METHOD_PROOF)
+    return NSVCD_ERROR_METHOD;
   q->world = world;
   q->question = *given;
   q->question.method = NSVCD_METHOD_PROOF;
@@ -239,6 +240,14 @@ static nsvcd__d3 nsvcd__push_out_of_all(const nsvcd__asker *asked) {
 
 // ---- where the mover may go
 
+// A pose displaced, as it is in floats.
+static nsvcd_pose nsvcd__displaced(const nsvcd_pose *pose, nsvcd__d3 by) {
+  nsvcd_pose out = *pose;
+  const nsvcd__d3 at = nsvcd__d3_add(nsvcd__d3_load(pose->position), by);
+  nsvcd__f3_store(nsvcd__f3_round(at), out.position);
+  return out;
+}
+
 // The pose of a way at a time in [0,1].
 static nsvcd_pose nsvcd__pose_on_way(const nsvcd_mover *way, const nsvcd__d3 pivot, double t) {
   const double all = (double)(way->count - 1);
@@ -333,8 +342,8 @@ static size_t nsvcd__contacts_at(nsvcd__asker *asked, const nsvcd_pose *pose, do
 // poses that are displaced by a push-out, at most
 #define NSVCD__DISPLACED 64
 
-static void nsvcd__world_answer(nsvcd__asker *q, const nsvcd__tally *t, int each,
-                                nsvcd_world_answer *out) {
+static void nsvcd__tell_all(nsvcd__asker *q, const nsvcd__tally *t, int each,
+                            nsvcd_world_answer *out) {
   const nsvcd_question *asked = &q->question;
   const double usual = (double)NSVCD_DEFAULT_TO * q->shape.reach;
   const double to = asked->to > 0 ? (double)asked->to : usual;
@@ -373,11 +382,8 @@ NSVCDDEF nsvcd_result nsvcd_world_sweep(const nsvcd_world *world,
     const size_t count = q.question.a.count;
     if (count > NSVCD__DISPLACED) return NSVCD_ERROR_POSES;
     const nsvcd__d3 by = nsvcd__push_out_of_all(&q);
-    for (size_t k = 0; k < count; k++) {
-      displaced[k] = q.question.a.poses[k];
-      const nsvcd__d3 at = nsvcd__d3_add(nsvcd__d3_load(displaced[k].position), by);
-      nsvcd__f3_store(nsvcd__f3_round(at), displaced[k].position);
-    }
+    for (size_t k = 0; k < count; k++)
+      displaced[k] = nsvcd__displaced(&q.question.a.poses[k], by);
     nsvcd__f3_store(nsvcd__f3_round(by), out.push_out);
     out.depth = (float)nsvcd__d3_norm(by);
     q.question.slop = 0;
@@ -385,7 +391,7 @@ NSVCDDEF nsvcd_result nsvcd_world_sweep(const nsvcd_world *world,
   }
   nsvcd__tally t = nsvcd__ask_all(&q);
   if (q.question.ask == NSVCD_ASK_FIRST && t.first) nsvcd__make_safe(&q, &t);
-  nsvcd__world_answer(&q, &t, manifold, &out);
+  nsvcd__tell_all(&q, &t, manifold, &out);
   if ((changes & 1) || changes != world->changes) return NSVCD_ERROR_WORLD;
   if (q.result) return q.result;
   *answer = out;

@@ -1,10 +1,10 @@
 // In: a body's speed and the contacts that it has. Out: its speed without what points into them.
 //
-// Sequential impulses (Catto, Iterative dynamics with temporal coherence, 2006), of one body against
-// others that rest or are driven: round after round each contact takes the impulse that its own
-// speed asks for, in sum never a pull, and friction up to its share of that. For a body that does
-// not turn and has no friction the limit is the speed nearest to the given one that points into no
-// contact.
+// Sequential impulses (Catto, Iterative dynamics with temporal coherence, 2006), of one body
+// against others that rest or are driven: round after round each contact takes the impulse that its
+// own speed asks for, in sum never a pull, and friction up to its share of that. For a body that
+// does not turn and has no friction the limit is the speed nearest to the given one that points
+// into no contact.
 //   A contact that is farther than where the body comes to rest may be approached, as fast as leads
 // there in this frame; one that is nearer is left, by a fifth of what is missing in a frame.
 #pragma once

@@ -6,6 +6,7 @@
 #include "../../neuralsvcd.h"
 #include "../../extras/neuralsvcd_certify.h"
 #include "../../extras/neuralsvcd_robot.h"
+#include "../../extras/neuralsvcd_world.h"
 #include "../check.h"
 
 // The corners and the faces of a box about the origin; `faces` of them, the lid (z up) last.

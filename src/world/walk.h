@@ -1,0 +1,84 @@
+// In: a character that stands, or stood. Out: it walks on grounds, along walls, up and down steps.
+#pragma once
+#include "ways.h"
+
+static nsvcd__d3 nsvcd__flat_part(const nsvcd__slide *s, nsvcd__d3 a) {
+  return nsvcd__d3_fma(-nsvcd__d3_dot(a, s->up), s->up, a);
+}
+
+// What is too steep to stand on is a wall. For whoever stands it is upright; who is in the air
+// slides down it, but does not rise by walking into it.
+static void nsvcd__meet_walls(nsvcd__slide *s) {
+  for (size_t k = s->kept; k < s->contact_count; k++) {
+    nsvcd__hold *h = &s->holds[k];
+    const double rise = nsvcd__d3_dot(h->normal, s->up);
+    if (!(rise > 0) || rise >= s->slope) continue;
+    const nsvcd__d3 flat = nsvcd__flat_part(s, h->normal);
+    const nsvcd__d3 away = nsvcd__d3_scale(flat, 1 / nsvcd__d3_norm(flat));
+    const double into = nsvcd__d3_dot(nsvcd__d3_sub(h->speed, s->thing.linear), away);
+    if (s->ground) h->normal = away;
+    if (!s->ground && into > 0) s->thing.linear = nsvcd__d3_fma(into, away, s->thing.linear);
+  }
+}
+
+// Whoever stands on a ground does not slide down it, and walks up it as fast as on the level.
+static void nsvcd__stand(nsvcd__slide *s) {
+  if (s->ground) {
+    const nsvcd__d3 n = nsvcd__d3_load(s->ground->contact.normal);
+    const nsvcd__d3 own = nsvcd__d3_sub(s->thing.linear, s->ridden);
+    const int falls = nsvcd__d3_dot(own, s->up) < 0;
+    const double steep = nsvcd__d3_dot(n, s->up);
+    nsvcd__d3 walks = falls ? nsvcd__flat_part(s, own) : own;
+    const double into = -nsvcd__d3_dot(walks, n);
+    if (into > 0) walks = nsvcd__d3_fma(into / steep, s->up, walks);
+    // down to where it rests, if that is lower
+    const double least = falls ? s->holds[s->ground - s->contacts].least / steep : 0;
+    s->thing.linear = nsvcd__d3_add(nsvcd__d3_fma(least, s->up, walks), s->ridden);
+  }
+  nsvcd__meet_walls(s);
+}
+
+// Onto a step: up, along, and down again. What has been gone of the way is not gone again. Returns
+// whether that led onto ground.
+static int nsvcd__climb(nsvcd__slide *s) {
+  const double step = (double)s->given->step;
+  const nsvcd_pose start = s->pose;
+  const double time = s->left * s->seconds * s->pace;
+  const nsvcd__d3 way = nsvcd__d3_scale(nsvcd__flat_part(s, s->thing.linear), time);
+  const double risen = step * nsvcd__go_by(s, nsvcd__d3_scale(s->up, step));
+  const double gone = nsvcd__go_by(s, way);
+  const double drop = risen + s->margin;
+  const double dropped = drop * nsvcd__go_by(s, nsvcd__d3_scale(s->up, -drop));
+  const int is_higher = dropped < risen - s->margin && gone > 0;
+  if (is_higher) nsvcd__slide_look(s);
+  if (is_higher && s->ground) {
+    s->pace *= 1 - gone;
+    return 1;
+  }
+  s->pose = start;
+  if (is_higher) nsvcd__slide_look(s);
+  return 0;
+}
+
+// Whoever stood on a ground and walked off it steps down, if there is a ground to step down on.
+static void nsvcd__step_down(nsvcd__slide *s) {
+  const nsvcd_pose above = s->pose;
+  if (nsvcd__go_by(s, nsvcd__d3_scale(s->up, -(double)s->given->step)) < 1) {
+    nsvcd__slide_look(s);
+    if (s->ground) return;
+  }
+  s->pose = above;
+}
+
+// Is there something too steep to stand on in the way of whoever stands?
+static int nsvcd__is_before_step(const nsvcd__slide *s) {
+  const nsvcd__d3 walks = nsvcd__flat_part(s, nsvcd__d3_sub(s->thing.linear, s->ridden));
+  if (!s->ground || !(s->given->step > 0)) return 0;
+  for (size_t k = s->kept; k < s->contact_count; k++) {
+    const nsvcd__d3 n = s->holds[k].normal;
+    const double rise = nsvcd__d3_dot(n, s->up);
+    const double into = -nsvcd__d3_dot(walks, n);
+    if (rise > -0.01 && rise < s->slope && into > 0.05 * nsvcd__d3_norm(walks)) return 1;
+  }
+  return 0;
+}
