@@ -2309,6 +2309,9 @@ static double nsvcd__travel_left(const nsvcd__slide *s) {
 // -------------------------------------------------------------------------------------- world/walk
 // In: a character that stands, or stood. Out: it walks on grounds, along walls, up and down steps.
 
+// the least cosine of an edge of a step that feet stand on
+#define NSVCD__EDGE_SLOPE 0.05
+
 static nsvcd__d3 nsvcd__flat_part(const nsvcd__slide *s, nsvcd__d3 a) {
   return nsvcd__d3_fma(-nsvcd__d3_dot(a, s->up), s->up, a);
 }
@@ -2368,6 +2371,24 @@ static int nsvcd__climb(nsvcd__slide *s) {
   return 0;
 }
 
+// Round feet meet the edge of a step long before they are above it. It is one if a step farther on
+// there is ground, no higher than a step.
+static int nsvcd__is_edge_of_step(nsvcd__slide *s) {
+  const double step = (double)s->given->step;
+  const nsvcd_pose start = s->pose;
+  const nsvcd__d3 walks = nsvcd__flat_part(s, nsvcd__d3_sub(s->thing.linear, s->ridden));
+  const nsvcd__d3 way = nsvcd__d3_scale(walks, step / nsvcd__d3_norm(walks));
+  const double risen = step * nsvcd__go_by(s, nsvcd__d3_scale(s->up, step));
+  const double gone = nsvcd__go_by(s, way);
+  (void)nsvcd__go_by(s, nsvcd__d3_scale(s->up, -risen - s->margin));
+  nsvcd__slide_look(s);
+  const int is_step = gone >= 1 && s->ground;
+  if (is_step) s->slope = NSVCD__EDGE_SLOPE;
+  s->pose = start;
+  nsvcd__slide_look(s);
+  return is_step;
+}
+
 // Whoever stood on a ground and walked off it steps down, if there is a ground to step down on.
 static void nsvcd__step_down(nsvcd__slide *s) {
   const nsvcd_pose above = s->pose;
@@ -2378,14 +2399,15 @@ static void nsvcd__step_down(nsvcd__slide *s) {
   s->pose = above;
 }
 
-// Is there something too steep to stand on in the way of whoever stands?
+// Is there something too steep to stand on in the way of whoever stands, or is on an edge?
 static int nsvcd__is_before_step(const nsvcd__slide *s) {
   const nsvcd__d3 walks = nsvcd__flat_part(s, nsvcd__d3_sub(s->thing.linear, s->ridden));
-  if (!s->ground || !(s->given->step > 0)) return 0;
+  if (!(s->given->step > 0)) return 0;
   for (size_t k = s->kept; k < s->contact_count; k++) {
     const nsvcd__d3 n = s->holds[k].normal;
     const double rise = nsvcd__d3_dot(n, s->up);
     const double into = -nsvcd__d3_dot(walks, n);
+    if (!s->ground && !(rise > NSVCD__EDGE_SLOPE)) continue;
     if (rise > -0.01 && rise < s->slope && into > 0.05 * nsvcd__d3_norm(walks)) return 1;
   }
   return 0;
@@ -2502,7 +2524,7 @@ static int nsvcd__slide_round(nsvcd__slide *s, int is_first, int *rests) {
     s->ridden = nsvcd__driven_speed(s, s->ground->body, nsvcd__pivot_at(s));
     thing->linear = nsvcd__d3_add(thing->linear, nsvcd__d3_sub(s->ridden, before));
   }
-  if (nsvcd__is_before_step(s)) (void)nsvcd__climb(s);
+  if (nsvcd__is_before_step(s) && !nsvcd__climb(s)) (void)nsvcd__is_edge_of_step(s);
   nsvcd__stand(s);
   nsvcd__slide_respond(s);
   const double turn = nsvcd__d3_norm(thing->angular) * s->left * s->seconds;

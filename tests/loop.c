@@ -43,7 +43,8 @@ static int next_frame(nsvcd_world *world) {
   const double floor = scene == ELEVATOR ? height(frame) : 0;
   if (frame > 0) {
     const double least = APART - 1e-6 * (1 + floor);
-    if ((double)at[2] - HALF - floor < least) expect("gap to the floor", at[2] - HALF - floor, 1, 0);
+    if ((double)at[2] - HALF - floor < least)
+      expect("gap to the floor", at[2] - HALF - floor, 1, 0);
     if (scene >= WALL && scene <= CORNER && 1 - HALF - (double)at[0] < least)
       expect("gap to the wall", 1 - HALF - at[0], 1, 0);
     if (scene == CORNER && 1 - HALF - (double)at[1] < least)

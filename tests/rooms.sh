@@ -18,7 +18,7 @@ for room in src/*/*.h; do
   grep -q "\"${room#src/}\"" $plans || { echo "rooms: no plan names $room"; failed=1; }
 done
 # the plans, without the headers that are made of them
-printf '#define %s_IMPLEMENTATION\n' NEURALSVCD NEURALSVCD_CERTIFY NEURALSVCD_ROBOT |
+printf '#define %s_IMPLEMENTATION\n' NEURALSVCD NEURALSVCD_CERTIFY NEURALSVCD_ROBOT NEURALSVCD_WORLD |
   sed '$a #include "src/header.h"\n#include "src/certify.h"\n#include "src/robot.h"\n#include "src/world.h"' |
   $CC -std=c99 -Wall -Wextra -Werror -fsyntax-only -I. -x c - || failed=1
 echo "rooms: $count, each by itself"

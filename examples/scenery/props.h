@@ -21,8 +21,8 @@
 #define PROPS_HIT 0.3f     // metres a second: what comes slower rests, or slides, on what it meets
 #define PROPS_SLOW 0.4f    // what touches, and is slower, is braked,
 #define PROPS_QUIET 0.15f  // and what is so slow
-#define PROPS_CALM 12      // for so many frames sleeps
-#define PROPS_WORK 4000    // units a question: what takes more is stopped early
+#define PROPS_CALM 6       // for so many frames sleeps
+#define PROPS_WORK 2000    // units a question: what takes more is stopped early
 
 // Meshes are about their centres of mass: props_encode sees to that.
 typedef struct props_shape {
@@ -212,47 +212,60 @@ SHAPES_DEF void props_turn(const props_thing *t, float way, float *v) {
   for (int k = 0; k < 3; k++) v[k] += 2 * way * twice[k];
 }
 
-// What an impulse of 1 does to a thing: along a direction, at a point of the world. How much faster
-// it goes there, and, in `spin`, how much faster it turns.
-SHAPES_DEF float props_give(const props_thing *t, const float *point, const float *along,
-                            float *spin) {
-  float arm[3], there[3];
-  for (int k = 0; k < 3; k++) arm[k] = point[k] - t->pose.position[k];
-  props_cross(arm, along, spin);
-  props_turn(t, -1, spin);
-  for (int k = 0; k < 3; k++) spin[k] *= t->slide.inertia[k] > 0 ? 1 / t->slide.inertia[k] : 0;
-  props_turn(t, 1, spin);
-  props_cross(spin, arm, there);
-  return 1 / t->mass + props_dot(there, along);
+// A point of the world at which two things push each other: what an impulse of 1 does to one there.
+typedef struct props_place {
+  const float *along;
+  float arm[3], spin[3];  // from its centre; how much faster it turns
+  float give;             // how much faster the point goes
+} props_place;
+
+SHAPES_DEF props_place props_place_of(const props_thing *t, const nsvcd_contact *contact) {
+  props_place out;
+  float there[3];
+  out.along = contact->normal;
+  for (int k = 0; k < 3; k++) out.arm[k] = contact->point[k] - t->pose.position[k];
+  props_cross(out.arm, out.along, out.spin);
+  props_turn(t, -1, out.spin);
+  for (int k = 0; k < 3; k++)
+    out.spin[k] = t->slide.inertia[k] > 0 ? out.spin[k] / t->slide.inertia[k] : 0;
+  props_turn(t, 1, out.spin);
+  props_cross(out.spin, out.arm, there);
+  out.give = 1 / t->mass + props_dot(there, out.along);
+  return out;
 }
-SHAPES_DEF void props_push(props_thing *t, const float *along, const float *spin, float impulse) {
+SHAPES_DEF float props_speed_at(const nsvcd_velocity *v, const props_place *at) {
+  float there[3];
+  props_cross(v->angular, at->arm, there);
+  return props_dot(v->linear, at->along) + props_dot(there, at->along);
+}
+SHAPES_DEF void props_push(nsvcd_velocity *v, float mass, const props_place *at, float impulse) {
   for (int k = 0; k < 3; k++) {
-    t->velocity.linear[k] += impulse * along[k] / t->mass;
-    t->velocity.angular[k] += impulse * spin[k];
+    v->linear[k] += impulse * at->along[k] / mass;
+    v->angular[k] += impulse * at->spin[k];
   }
 }
 
 // A slide's impulses are those of a thing that meets what rests. What was hit gets its share of
-// them, as if both went on together, and the thing gets back the rest. No more than it came with:
-// what is wedged in has larger impulses.
-SHAPES_DEF void props_hand_on(props_world *w, props_thing *t, const nsvcd_velocity *before) {
+// them, as two that meet alone do, and the thing goes after it. came: its velocity before.
+SHAPES_DEF void props_hand_on(props_world *w, props_thing *t, nsvcd_velocity came) {
   for (size_t k = 0; k < t->answer.contact_count; k++) {
     const nsvcd_world_contact *c = &t->answer.contacts[k];
-    const float *n = c->contact.normal;
     props_thing *hit = &w->things[c->body];
-    float arm[3], there[3], spins[2][3];
     if (props_walks(hit) || !(c->impulse > 0)) continue;
-    for (int i = 0; i < 3; i++) arm[i] = c->contact.point[i] - t->pose.position[i];
-    props_cross(before->angular, arm, there);
-    const float into = -props_dot(before->linear, n) - props_dot(there, n);
+    const float impulse = c->impulse * (props_walks(t) ? t->mass : 1);
+    const props_place own = props_place_of(t, &c->contact);
+    const props_place other = props_place_of(hit, &c->contact);
+    const float into = props_speed_at(&hit->velocity, &other) - props_speed_at(&came, &own);
     if (!(into > PROPS_HIT)) continue;
-    const float own = props_give(t, c->contact.point, n, spins[0]);
-    const float others = props_give(hit, c->contact.point, n, spins[1]);
-    const float impulse = fminf(c->impulse * (props_walks(t) ? t->mass : 1), into / own);
-    const float handed = impulse * own / (own + others);
-    props_push(hit, n, spins[1], -handed);
-    if (!props_walks(t)) props_push(t, n, spins[0], handed - impulse);
+    const float bounce = t->slide.restitution * into;
+    const float handed = fminf(impulse * own.give, into + bounce) / (own.give + other.give);
+    props_push(&hit->velocity, hit->mass, &other, -handed);
+    props_push(&came, t->mass, &own, handed);
     props_wake(hit);
+    if (props_walks(t)) continue;
+    const float apart = props_speed_at(&t->velocity, &own) - props_speed_at(&hit->velocity, &other);
+    const float back = fminf(impulse - handed, (apart - bounce) / own.give);
+    if (back > 0) props_push(&t->velocity, t->mass, &own, -back);
   }
 }
 
@@ -304,7 +317,7 @@ SHAPES_DEF nsvcd_result props_step(props_world *w, float seconds) {
     t->pose = t->answer.pose;
     w->counts[0] += t->answer.questions;
     w->counts[1] += t->answer.contact_count;
-    props_hand_on(w, t, &before);
+    props_hand_on(w, t, before);
   }
   props_calm(w);
   return NSVCD_OK;

@@ -110,7 +110,7 @@ static int nsvcd__slide_round(nsvcd__slide *s, int is_first, int *rests) {
     s->ridden = nsvcd__driven_speed(s, s->ground->body, nsvcd__pivot_at(s));
     thing->linear = nsvcd__d3_add(thing->linear, nsvcd__d3_sub(s->ridden, before));
   }
-  if (nsvcd__is_before_step(s)) (void)nsvcd__climb(s);
+  if (nsvcd__is_before_step(s) && !nsvcd__climb(s)) (void)nsvcd__is_edge_of_step(s);
   nsvcd__stand(s);
   nsvcd__slide_respond(s);
   const double turn = nsvcd__d3_norm(thing->angular) * s->left * s->seconds;
