@@ -113,7 +113,8 @@ class Code(enum.IntEnum):
     MIMIC = 57
     STAGE = 58
     PLAN = 59
-    BUILD = 60
+    WORLD = 60
+    BUILD = 61
 
 
 class _Word(str, enum.Enum):
