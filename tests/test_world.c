@@ -519,6 +519,19 @@ static void groups_sensors_and_outsiders(void) {
   stage_end(&s);
 }
 
+// Boxes that do not meet, of bodies within the clearance of each other.
+static void what_is_within_the_clearance(void) {
+  stage s = stage_begin();
+  const size_t id = stage_add(&s, thing_box(1, 1, 1), pose_of(0, 0, 0), 0);
+  const size_t other = stage_add(&s, thing_box(1, 1, 1), pose_of(1.5, 0, 0), 1);
+  nsvcd_world_question q = question_of(id, NULL, 0, NSVCD_ASK_HIT);
+  q.question.clearance = 0.49f;
+  CHECK_EQ(ask(&s, &q).verdict, NSVCD_FREE);
+  q.question.clearance = 0.51f;
+  CHECK_EQ(ask(&s, &q).body, other);
+  stage_end(&s);
+}
+
 // Two bodies of one mesh at one place, and a mover with their pose.
 static void bodies_of_one_place(void) {
   stage s = stage_begin();
@@ -745,6 +758,7 @@ void test_world(void) {
   RUN(one_push_out_of_a_corner);
   RUN(no_push_out_between_walls);
   RUN(groups_sensors_and_outsiders);
+  RUN(what_is_within_the_clearance);
   RUN(bodies_of_one_place);
   RUN(bad_bodies_are_refused);
   RUN(worlds_that_change_are_refused);
