@@ -192,10 +192,13 @@ NSVCDDEF nsvcd_result nsvcd_world_list(const nsvcd_world *world,
 NSVCDDEF nsvcd_result nsvcd_world_pairs(const nsvcd_world *world, float distance,
                                         nsvcd_body_pair *pairs, size_t most, size_t *count);
 
+// units of work of a slide's questions
+#define NSVCD_DEFAULT_SLIDE_WORK 10000
+
 // How a body slides. Zero means the default.
 typedef struct nsvcd_slide_options {
   // metres: what it never comes nearer to anything than; default a two-hundredth of its radius. And
-  // how much farther than that it comes to rest; default the same
+  // how much farther than that it comes to rest, or a part of that; default the same
   float clearance, margin;
   // kilograms, and (3) kg m^2, about the axes of its frame through its pivot. Without an inertia it
   // does not turn by what it meets; without a mass it is a character, whose impulses are speeds
@@ -210,7 +213,8 @@ typedef struct nsvcd_slide_options {
   // how often in a frame it goes on after a contact; default 4. Before driven bodies four times as
   // often
   size_t rounds;
-  // units of each question, as question.work
+  // units of each question, as question.work; default NSVCD_DEFAULT_SLIDE_WORK. What takes more is
+  // stopped before it is decided
   size_t work;
 } nsvcd_slide_options;
 
@@ -2449,7 +2453,7 @@ static nsvcd_result nsvcd__slide_begin(const nsvcd_world *world, size_t id,
   memset(s, 0, sizeof *s);
   asked.self = id;
   asked.question.ask = NSVCD_ASK_FIRST;
-  asked.question.work = given->work;
+  asked.question.work = given->work ? given->work : NSVCD_DEFAULT_SLIDE_WORK;
   if (!nsvcd__resident_of(world, id)) return NSVCD_ERROR_INDEX;
   nsvcd_result result = nsvcd__slide_check(given, seconds, velocity);
   if (!result) result = nsvcd__asker_begin(world, &asked, workspace, size, &s->ask);

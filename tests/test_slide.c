@@ -575,7 +575,6 @@ static void between_two_movers(void) {
     const size_t id = add_cube(&s, 0, 0.8 * (k - 1), 0.2512);
     a[k] = k == 1 ? character_of(&s, id, 0.1f) : prop_of(&s, id, 0);
     // edges along faces at just the clearance: without a limit some questions take a million units
-    a[k].options.work = 10000;
   }
   for (int f = 0; f < 120; f++) {
     frame(&a[0], 0, 1);

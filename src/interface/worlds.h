@@ -146,10 +146,13 @@ NSVCDDEF nsvcd_result nsvcd_world_list(const nsvcd_world *world,
 NSVCDDEF nsvcd_result nsvcd_world_pairs(const nsvcd_world *world, float distance,
                                         nsvcd_body_pair *pairs, size_t most, size_t *count);
 
+// units of work of a slide's questions
+#define NSVCD_DEFAULT_SLIDE_WORK 10000
+
 // How a body slides. Zero means the default.
 typedef struct nsvcd_slide_options {
   // metres: what it never comes nearer to anything than; default a two-hundredth of its radius. And
-  // how much farther than that it comes to rest; default the same
+  // how much farther than that it comes to rest, or a part of that; default the same
   float clearance, margin;
   // kilograms, and (3) kg m^2, about the axes of its frame through its pivot. Without an inertia it
   // does not turn by what it meets; without a mass it is a character, whose impulses are speeds
@@ -164,7 +167,8 @@ typedef struct nsvcd_slide_options {
   // how often in a frame it goes on after a contact; default 4. Before driven bodies four times as
   // often
   size_t rounds;
-  // units of each question, as question.work
+  // units of each question, as question.work; default NSVCD_DEFAULT_SLIDE_WORK. What takes more is
+  // stopped before it is decided
   size_t work;
 } nsvcd_slide_options;
 

@@ -35,7 +35,7 @@ static nsvcd_result nsvcd__slide_begin(const nsvcd_world *world, size_t id,
   memset(s, 0, sizeof *s);
   asked.self = id;
   asked.question.ask = NSVCD_ASK_FIRST;
-  asked.question.work = given->work;
+  asked.question.work = given->work ? given->work : NSVCD_DEFAULT_SLIDE_WORK;
   if (!nsvcd__resident_of(world, id)) return NSVCD_ERROR_INDEX;
   nsvcd_result result = nsvcd__slide_check(given, seconds, velocity);
   if (!result) result = nsvcd__asker_begin(world, &asked, workspace, size, &s->ask);
