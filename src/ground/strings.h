@@ -65,7 +65,7 @@ static const char nsvcd__result_texts[] =
     "finite\0"
     "a joint's limits are not finite or too large, low is above high, or they exclude those "
     "of one that mimics it\0"
-    "a joint's speed or acceleration is negative, not finite or too large\0"
+    "a speed or acceleration is negative (a joint's), not finite or too large\0"
     "a link is no joint of the scene, or a part none of its parts\0"
     "a pair is not there, or its parts are not, are one, or are on one link\0"
     "a cone's angle is not more than 0 and less than pi\0"

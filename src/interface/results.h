@@ -106,7 +106,7 @@ typedef enum nsvcd_result {
   NSVCD_ERROR_AXIS,
   // a joint's limits are not finite or too large, or low is above high
   NSVCD_ERROR_LIMITS,
-  // a joint's speed or acceleration is negative, not finite or too large
+  // a speed or acceleration is negative (a joint's), not finite or too large
   NSVCD_ERROR_SPEED,
   // a link or a part is not one of the scene's
   NSVCD_ERROR_LINK,

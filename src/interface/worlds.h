@@ -205,7 +205,7 @@ typedef struct nsvcd_slide_answer {
 // Moves a body of the world for a frame, at its speed: it goes as far as is proven free, loses the
 // speed that points into what it meets, and goes on with what is left of the frame. Its speed is
 // that which it has at the end. Gravity and other forces are the caller's to add to it before.
-//   world      the body is moved in it
+//   world      the body is moved in it. One that was driven is so no more
 //   velocity   not NULL
 //   seconds    of the frame
 //   answer     not NULL; zeroed, or the one of the same body's slide before, which only ever saves
