@@ -995,7 +995,7 @@ not_of_a_plan() {  # TEXT SED: a planning file that verify does not take, whatev
 }
 first=$(grep '^obstacle' "$dir/robot.txt" | head -1 | sed 's,/,.,g')
 not_of_a_plan 'not where it may stand' "/^scene/a body late world $(awk '$1 == "body" { print $4; exit }' "$dir/robot.txt")"
-not_of_a_plan 'not where it may stand' "s,^plan turned.*,&\n$first x,"
+not_of_a_plan 'something follows a body' "s,^plan turned.*,&\n$first x,"
 not_of_a_plan 'not where it may stand' 's/^plan up shelf/plan up hall/'
 not_of_a_plan 'a joint is of no kind' '1,/ revolute /s/ revolute / fixed /'
 not_of_a_plan 'two bodies of one name' 's/^body forearm /body palm /'

@@ -471,8 +471,10 @@ typedef struct cone_countdown {
 } cone_countdown;
 static int cone_count_down(void *user) {
   cone_countdown *c = (cone_countdown *)user;
-  if (c->left > 0) c->left--;
-  else c->after++;
+  if (c->left > 0)
+    c->left--;
+  else
+    c->after++;
   return c->after > 0;
 }
 

@@ -300,8 +300,9 @@ static void pegs_come_out_of_holes(void) {
         robot_motion_is_smooth(&r, &a.answer.motion, a.start, a.goals[0]);
       free(r.memory);
     }
-    printf("  %zu joints: at most %zu proofs, %zu looks; %zu of %d seeds take more than 300 proofs\n",
-           joints, most[0], most[1], many, SEEDS);
+    printf(
+        "  %zu joints: at most %zu proofs, %zu looks; %zu of %d seeds take more than 300 proofs\n",
+        joints, most[0], most[1], many, SEEDS);
     CHECK_LE(most[0], 1000);
     CHECK_LE(most[1], 1500);
     CHECK_LE(many, 2 * SEEDS / 5);

@@ -90,8 +90,10 @@ static double place(const actor *a, int axis) {
 }
 static double moved(const nsvcd_pose *a, const nsvcd_pose *b) {
   double most = 0;
-  for (int k = 0; k < 3; k++) most = fmax(most, fabs((double)a->position[k] - (double)b->position[k]));
-  for (int k = 0; k < 4; k++) most = fmax(most, fabs((double)a->rotation[k] - (double)b->rotation[k]));
+  for (int k = 0; k < 3; k++)
+    most = fmax(most, fabs((double)a->position[k] - (double)b->position[k]));
+  for (int k = 0; k < 4; k++)
+    most = fmax(most, fabs((double)a->rotation[k] - (double)b->rotation[k]));
   return most;
 }
 static size_t add_floor(stage *s) {
@@ -102,8 +104,7 @@ static size_t add_cube(stage *s, double x, double y, double z) {
 }
 // Walls of 30 cm, beside a cube in the middle, so far from it.
 static void add_walls(stage *s, double right, double left) {
-  if (right > 0)
-    stage_add(s, thing_box(0.3, 6, 2), pose_of(0.25 + 0.15 + right, 0, 1.001), 1);
+  if (right > 0) stage_add(s, thing_box(0.3, 6, 2), pose_of(0.25 + 0.15 + right, 0, 1.001), 1);
   if (left > 0) stage_add(s, thing_box(0.3, 6, 2), pose_of(-0.25 - 0.15 - left, 0, 1.001), 1);
 }
 
@@ -191,7 +192,9 @@ static void what_is_dropped_comes_to_rest(void) {
     stage s = stage_begin();
     add_floor(&s);
     const size_t id = add_cube(&s, 0, 0, 1.25);
-    actor a = kind == 2 ? actor_of(&s, id) : kind ? prop_of(&s, id, 0.5f) : character_of(&s, id, 0.1f);
+    actor a = kind == 2 ? actor_of(&s, id)
+              : kind    ? prop_of(&s, id, 0.5f)
+                        : character_of(&s, id, 0.1f);
     for (int f = 0; f < 120; f++) frame(&a, ITS_OWN, ITS_OWN);
     CHECK_RESTS(place(&a, 2) - 0.25);
     const nsvcd_pose there = stage_pose(&s, id);
@@ -263,8 +266,8 @@ static void friction_on_a_slope(void) {
       const nsvcd_pose now = stage_pose(&s, id);
       CHECK_LE(moved(&there, &now), 1e-6);
     } else {
-      const double gone = hypot(place(&a, 0) - (double)pose.position[0],
-                                place(&a, 2) - (double)pose.position[2]);
+      const double gone =
+          hypot(place(&a, 0) - (double)pose.position[0], place(&a, 2) - (double)pose.position[2]);
       const double pulls = 9.81 * (sin(by) - 0.1 * cos(by));
       CHECK_NEAR(gone, 0.5 * pulls * 61.0 / 60, 0.02);
     }
@@ -462,7 +465,8 @@ static void walks_on_slopes(void) {
     const double by = steep ? 1.047197551 : 0.523598776;
     add_floor(&s);
     // its upper face begins at x = 1 on the floor
-    const nsvcd_pose pose = turned(1 + 3 * cos(by) + 0.5 * sin(by), 0, 3 * sin(by) - 0.5 * cos(by), 1, -by);
+    const nsvcd_pose pose =
+        turned(1 + 3 * cos(by) + 0.5 * sin(by), 0, 3 * sin(by) - 0.5 * cos(by), 1, -by);
     stage_add(&s, thing_box(6, 6, 1), pose, 1);
     const size_t id = add_cube(&s, 0, 0, 0.2512);
     actor a = character_of(&s, id, 0.2f);
@@ -548,8 +552,8 @@ static void climbs_on_a_train(void) {
   for (int back = 0; back < 2; back++) {
     stage s = stage_begin();
     const double side = back ? -1 : 1;
-    const size_t train[2] = {
-        add_floor(&s), stage_add(&s, thing_box(2, 10, 0.1), pose_of(2 * side, 0, 0.0501), 1)};
+    const size_t train[2] = {add_floor(&s),
+                             stage_add(&s, thing_box(2, 10, 0.1), pose_of(2 * side, 0, 0.0501), 1)};
     const size_t id = add_cube(&s, 0, 0, 0.2512);
     actor a = character_of(&s, id, 0.2f);
     for (int f = 0; f < 120; f++) {
@@ -742,20 +746,20 @@ static void bad_slides_are_refused(void) {
   memset(&answer, 0, sizeof answer);
   memset(&before, 0, sizeof before);
   const nsvcd_pose there = stage_pose(&s, id);
-#define REFUSED(change, code)                                                               \
-  do {                                                                                      \
-    nsvcd_slide_options o = good.options;                                                   \
-    nsvcd_velocity v = velocity;                                                            \
-    float seconds = FRAME;                                                                  \
-    size_t who = id;                                                                        \
-    change;                                                                                 \
-    const nsvcd_velocity given = v;                                                         \
+#define REFUSED(change, code)                                                                \
+  do {                                                                                       \
+    nsvcd_slide_options o = good.options;                                                    \
+    nsvcd_velocity v = velocity;                                                             \
+    float seconds = FRAME;                                                                   \
+    size_t who = id;                                                                         \
+    change;                                                                                  \
+    const nsvcd_velocity given = v;                                                          \
     CHECK_EQ(nsvcd_world_slide(s.world, who, &o, seconds, memory, size, &v, &answer), code); \
-    CHECK(!memcmp(&v, &given, sizeof v));                                                   \
-    CHECK(!memcmp(&answer, &before, sizeof answer));                                        \
-    const nsvcd_pose now = stage_pose(&s, id);                                              \
-    CHECK(!memcmp(&now, &there, sizeof now));                                               \
-    (void)seconds;                                                                          \
+    CHECK(!memcmp(&v, &given, sizeof v));                                                    \
+    CHECK(!memcmp(&answer, &before, sizeof answer));                                         \
+    const nsvcd_pose now = stage_pose(&s, id);                                               \
+    CHECK(!memcmp(&now, &there, sizeof now));                                                \
+    (void)seconds;                                                                           \
   } while (0)
   REFUSED(who = 0, NSVCD_ERROR_INDEX);
   REFUSED(who = 3, NSVCD_ERROR_INDEX);

@@ -163,8 +163,8 @@ static void pairs_are_those_of_all_boxes(void) {
     } else if (what < 9) {
       const nsvcd_pose pose = random_pose(2);
       e->is_driven = what == 8;
-      const nsvcd_result result = e->is_driven ? nsvcd_world_drive(world, id, &pose)
-                                               : nsvcd_world_move(world, id, &pose);
+      const nsvcd_result result =
+          e->is_driven ? nsvcd_world_drive(world, id, &pose) : nsvcd_world_move(world, id, &pose);
       CHECK_EQ(result, e->lives ? NSVCD_OK : NSVCD_ERROR_INDEX);
       *(e->is_driven ? &e->to : &e->given.pose) = pose;
     } else if (trial % 20 == 0) {
@@ -579,22 +579,22 @@ static void bad_bodies_are_refused(void) {
   const size_t bytes = nsvcd_world_size(STAGE_MOST);
   char *before = (char *)malloc(bytes);
   // Its counter of changes may have moved on, and nothing else.
-#define REFUSED(call, code)                                        \
-  do {                                                             \
-    s.world->changes = 0;                                          \
-    memcpy(before, s.memory, bytes);                               \
-    CHECK_EQ(call, code);                                          \
-    CHECK_EQ(s.world->changes & 1, 0);                             \
-    s.world->changes = 0;                                          \
-    CHECK(!memcmp(before, s.memory, bytes));                       \
+#define REFUSED(call, code)                  \
+  do {                                       \
+    s.world->changes = 0;                    \
+    memcpy(before, s.memory, bytes);         \
+    CHECK_EQ(call, code);                    \
+    CHECK_EQ(s.world->changes & 1, 0);       \
+    s.world->changes = 0;                    \
+    CHECK(!memcmp(before, s.memory, bytes)); \
   } while (0)
-#define BODY_REFUSED(change, code)                              \
-  do {                                                          \
-    nsvcd_world_body b = good;                                  \
-    size_t id = 77;                                             \
-    change;                                                     \
-    REFUSED(nsvcd_world_add(s.world, &b, &id), code);           \
-    CHECK_EQ(id, 77);                                           \
+#define BODY_REFUSED(change, code)                    \
+  do {                                                \
+    nsvcd_world_body b = good;                        \
+    size_t id = 77;                                   \
+    change;                                           \
+    REFUSED(nsvcd_world_add(s.world, &b, &id), code); \
+    CHECK_EQ(id, 77);                                 \
   } while (0)
   static const uint64_t no_body[8] = {0};
   BODY_REFUSED(b.body = NULL, NSVCD_ERROR_ARGUMENT);
@@ -708,15 +708,15 @@ static void bad_questions_are_refused(void) {
   memset(&answer, 0x5a, sizeof answer);
   memset(&before, 0x5a, sizeof before);
 #undef REFUSED
-#define REFUSED(change, code)                                                                 \
-  do {                                                                                        \
-    nsvcd_world_question q = good;                                                            \
-    change;                                                                                   \
-    CHECK_EQ(nsvcd_world_sweep(s.world, &q, memory, size, &answer), code);                    \
-    CHECK_EQ(nsvcd_world_list(s.world, &q, memory, size, ids, 4, &count), code);              \
-    CHECK(!memcmp(&answer, &before, sizeof answer));                                          \
-    CHECK_EQ(count, 77);                                                                      \
-    CHECK_EQ(ids[0], 7);                                                                      \
+#define REFUSED(change, code)                                                    \
+  do {                                                                           \
+    nsvcd_world_question q = good;                                               \
+    change;                                                                      \
+    CHECK_EQ(nsvcd_world_sweep(s.world, &q, memory, size, &answer), code);       \
+    CHECK_EQ(nsvcd_world_list(s.world, &q, memory, size, ids, 4, &count), code); \
+    CHECK(!memcmp(&answer, &before, sizeof answer));                             \
+    CHECK_EQ(count, 77);                                                         \
+    CHECK_EQ(ids[0], 7);                                                         \
   } while (0)
   REFUSED(q.self = 2, NSVCD_ERROR_INDEX);
   REFUSED(q.self = (size_t)-1, NSVCD_ERROR_INDEX);
