@@ -1393,7 +1393,7 @@ static nsvcd_result nsvcd__world_closes(nsvcd_world *world, nsvcd_result result)
 }
 
 // Puts a body into the tree, or where it is now.
-static void nsvcd__settle(nsvcd_world *world, uint32_t id, int is_new) {
+static void nsvcd__update_box(nsvcd_world *world, uint32_t id, int is_new) {
   nsvcd__resident *r = &world->residents[id];
   nsvcd__branch *leaf = &world->tree.nodes[id];
   const nsvcd_pose way[2] = {r->given.pose, r->to};
@@ -1444,7 +1444,7 @@ NSVCDDEF nsvcd_result nsvcd_world_add(nsvcd_world *world, const nsvcd_world_body
   if (!body->groups) r->given.groups = 1;
   const nsvcd_mover mover = nsvcd__mover_of(r);
   r->shape = nsvcd__shape_box_of(&mover);
-  nsvcd__settle(world, n, 1);
+  nsvcd__update_box(world, n, 1);
   *id = n;
   return nsvcd__world_closes(world, NSVCD_OK);
 }
@@ -1472,7 +1472,7 @@ static nsvcd_result nsvcd__world_place(nsvcd_world *world, size_t id, const nsvc
   if (!nsvcd__world_opens(world)) return NSVCD_ERROR_WORLD;
   *(is_driven ? &r->to : &r->given.pose) = *pose;
   r->is_driven = is_driven;
-  nsvcd__settle(world, (uint32_t)id, 0);
+  nsvcd__update_box(world, (uint32_t)id, 0);
   return nsvcd__world_closes(world, NSVCD_OK);
 }
 
