@@ -10532,7 +10532,7 @@ typedef struct nsvcd__near_pair {
   uint32_t moving_triangle, fixed_triangle;
   uint16_t moving_patch, fixed_patch;
   // 1: it has its side, or is none
-  uint32_t is_settled;
+  uint32_t is_resolved;
 } nsvcd__near_pair;
 
 // A list of these, in the caller's memory; is_full: there were more.
@@ -14707,7 +14707,7 @@ static NSVCD__NOINLINE void nsvcd__list_near(nsvcd__proof *p, const nsvcd__trian
   item.fixed_entry = (uint32_t)pair->fixed_entry;
   item.moving_patch = (uint16_t)pair->moving_patch;
   item.fixed_patch = (uint16_t)pair->fixed_patch;
-  item.is_settled = 0;
+  item.is_resolved = 0;
   list->items[list->count++] = item;
 }
 #endif  // NSVCD_NO_PROOF
@@ -21111,7 +21111,7 @@ static nsvcd__near_pair *nsvcd__next_near(const nsvcd__near_list *list) {
   nsvcd__near_pair *best = NULL;
   for (uint32_t n = 0; n < list->count; n++) {
     nsvcd__near_pair *item = &list->items[n];
-    if (!item->is_settled && (!best || item->distance < best->distance)) best = item;
+    if (!item->is_resolved && (!best || item->distance < best->distance)) best = item;
   }
   return best;
 }
@@ -21185,7 +21185,7 @@ static size_t nsvcd__write_contacts(nsvcd__query *query, nsvcd_contact *contacts
     nsvcd__posed_pair posed;
     nsvcd__near_pair *item = nsvcd__next_near(list);
     if (!item) break;
-    item->is_settled = 1;
+    item->is_resolved = 1;
     nsvcd__posed_pair_of(p, &at, item, &posed);
     const nsvcd__nearest points = nsvcd__near_points(posed.posed, posed.pair.fixed);
     if (nsvcd__goes_on_beside(p, item->moving_triangle, item->fixed_triangle, &points,
@@ -21197,7 +21197,7 @@ static size_t nsvcd__write_contacts(nsvcd__query *query, nsvcd_contact *contacts
     for (uint32_t n = 0; n < list->count; n++) {
       nsvcd__near_pair *other = &list->items[n];
       if (nsvcd__f3_dot(other->normal, item->normal) >= NSVCD__SAME_SIDE)
-        other->is_settled = 1;
+        other->is_resolved = 1;
     }
     sides++;
   }

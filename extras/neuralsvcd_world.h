@@ -1988,7 +1988,7 @@ typedef struct nsvcd__hold {
   nsvcd__d3 arm, normal;
   // the other body's speed there
   nsvcd__d3 speed;
-  // metres: how much nearer it is than where the body comes to rest; below 0: farther
+  // metres: how much nearer it is than half a margin beyond the clearance; below 0: farther
   double lacks;
   // metres a second, along the normal: at least
   double least;
@@ -2077,23 +2077,21 @@ static void nsvcd__respond(nsvcd__thing *thing, nsvcd__hold *holds, size_t count
   }
 }
 
-// How fast a body is to go so that it comes to rest a margin off everything: a share of what each
-// contact lacks, in a frame. That is no speed that it has. Contacts are soft: so between two walls
-// that are too close for both margins it goes half way.
-static nsvcd__thing nsvcd__leaving(const nsvcd__thing *thing, const nsvcd__hold *holds,
-                                   size_t count, double seconds) {
-  nsvcd__thing out = *thing;
+// How fast a body is to go so that it is half a margin off everything: a share of what each contact
+// lacks, in a frame. That is no speed that it has, and it does not turn. Contacts are soft: so
+// between two walls that are too close for that it goes half way.
+static nsvcd__d3 nsvcd__leaving(const nsvcd__hold *holds, size_t count, double seconds) {
+  nsvcd__thing out;
   nsvcd__hold left[NSVCD_WORLD_CONTACTS];
-  out.linear = out.angular = nsvcd__d3_of(0, 0, 0);
-  out.friction = 0;
-  out.inverse_inertia = nsvcd__d3_of(0, 0, 0);
+  memset(&out, 0, sizeof out);
+  out.inverse_mass = 1;
   for (size_t k = 0; k < count; k++) {
     left[k] = holds[k];
     left[k].speed = nsvcd__d3_of(0, 0, 0);
     left[k].least = NSVCD__LEAVES * nsvcd__max(holds[k].lacks, 0) / seconds;
   }
   nsvcd__respond(&out, left, count, NSVCD__SOFT);
-  return out;
+  return out.linear;
 }
 
 // -------------------------------------------------------------------------------------- world/ways
@@ -2105,8 +2103,8 @@ static nsvcd__thing nsvcd__leaving(const nsvcd__thing *thing, const nsvcd__hold 
 // slides is not stopped by what it slides on. The way that is left is asked about; where it is
 // stopped, the body goes to the safe pose, and goes on with what is left of the frame from there.
 //
-// It comes to rest a margin farther than the clearance: so a way along what it rests on is not
-// stopped by rounding, nor by the bend of a turn.
+// It comes down to a margin farther than the clearance, and leaves what is nearer than half of
+// that: so a way along what it rests on is not stopped by rounding, nor by the bend of a turn.
 
 // defaults: a fraction of the body's reach; rounds; the least cosine of a ground
 #define NSVCD__USUAL_CLEARANCE 0.005
@@ -2133,9 +2131,8 @@ typedef struct nsvcd__slide {
   // unit, or 0; the least cosine of a ground
   nsvcd__d3 up;
   double slope;
-  // the speed of what it rides on
-  nsvcd__d3 ridden;
-  nsvcd__thing leaves;
+  // the speed of what it rides on; and the speed besides its own with which it leaves what is near
+  nsvcd__d3 ridden, leaves;
   // what its last way met first; or nobody
   size_t met;
   // a character's: of its speed, that is left for the rest of the frame
@@ -2205,7 +2202,7 @@ static void nsvcd__slide_look(nsvcd__slide *s) {
     flattest = nsvcd__max(flattest, flat);
   }
   const size_t count = s->contact_count - s->kept;
-  s->leaves = nsvcd__leaving(&s->thing, s->holds + s->kept, count, s->seconds);
+  s->leaves = nsvcd__leaving(s->holds + s->kept, count, s->seconds);
 }
 
 // Takes off the speed what points into contacts; what comes fast bounces.
@@ -2227,7 +2224,7 @@ static void nsvcd__slide_respond(nsvcd__slide *s) {
 // The pose after some seconds at the speed now.
 static nsvcd_pose nsvcd__aim(const nsvcd__slide *s, double seconds) {
   const nsvcd__d3 c = s->ask.shape.pivot;
-  const nsvcd__d3 w = nsvcd__d3_add(s->thing.angular, s->leaves.angular);
+  const nsvcd__d3 w = s->thing.angular;
   const double angle = nsvcd__d3_norm(w) * seconds;
   const double sine = angle > 1e-9 ? nsvcd__sin(0.5 * angle) * seconds / angle : 0.5 * seconds;
   const nsvcd__d3 u = nsvcd__d3_scale(w, sine);
@@ -2236,7 +2233,7 @@ static nsvcd_pose nsvcd__aim(const nsvcd__slide *s, double seconds) {
   const nsvcd__d3 pivot = nsvcd__to_pivot(&out, c, 1);
   out.rotation = nsvcd__dquat_mul(turn, out.rotation);
   const nsvcd__d3 own = nsvcd__d3_sub(s->thing.linear, s->ridden);
-  const nsvcd__d3 rides = nsvcd__d3_add(s->ridden, s->leaves.linear);
+  const nsvcd__d3 rides = nsvcd__d3_add(s->ridden, s->leaves);
   out.position = nsvcd__d3_fma(seconds, nsvcd__d3_fma(s->pace, own, rides), pivot);
   out.position = nsvcd__to_pivot(&out, c, -1);
   return nsvcd__dpose_round(&out);
@@ -2304,9 +2301,9 @@ static int nsvcd__met_driven(const nsvcd__slide *s) {
 
 // How far points of the body go in the rest of the frame, at most, metres.
 static double nsvcd__travel_left(const nsvcd__slide *s) {
-  const nsvcd__d3 linear = nsvcd__d3_add(s->thing.linear, s->leaves.linear);
-  const nsvcd__d3 angular = nsvcd__d3_add(s->thing.angular, s->leaves.angular);
-  const double speed = nsvcd__d3_norm(linear) + nsvcd__d3_norm(angular) * s->ask.shape.reach;
+  const double turn = nsvcd__d3_norm(s->thing.angular);
+  const double speed =
+      nsvcd__d3_norm(nsvcd__d3_add(s->thing.linear, s->leaves)) + turn * s->ask.shape.reach;
   return speed * s->left * s->seconds;
 }
 

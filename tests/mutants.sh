@@ -438,7 +438,7 @@ contacts: inner edges are sides|    if (same_moving \&\& nsvcd__goes_on(at_it.pa
 contacts: edges of the moving body are sides|    if (same_fixed \&\& nsvcd__goes_on(at_it.posed, points->on_a, back, same)) return 1;|
 contacts: ghosts among supports|if (may_go_on \&\& nsvcd__goes_on_beside(|if (0 \&\& nsvcd__goes_on_beside(
 contacts: the nearest is left out|if (has_nearest) return (size_t)count;|if (count > 0) return (size_t)count;
-contacts: a side of all directions|if (nsvcd__f3_dot(other->normal, item->normal) >= NSVCD__SAME_SIDE) other->is_settled = 1;|other->is_settled = 1;
+contacts: a side of all directions|if (nsvcd__f3_dot(other->normal, item->normal) >= NSVCD__SAME_SIDE) other->is_resolved = 1;|other->is_resolved = 1;
 contacts: corners over a face that is not the nearest|    if (!(side * heights[k] > 0)) return 0;|
 contacts: a full list that is not said|  list->is_full = 1;|  list->is_full = 0;
 contacts: work that ended is not said|return !result.ran_out \&\& !list->is_full;|return !list->is_full;

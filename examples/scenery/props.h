@@ -36,8 +36,8 @@ typedef struct props_thing {
   int asleep;
   nsvcd_pose pose;
   float scale;
-  float
-      mass;  // 0: it never moves. A character's, which has none in `slide`, is what it pushes with
+  // 0: it never moves. A character's, which has none in `slide`, is what it pushes with
+  float mass;
   float reach;  // metres: no point is farther from its centre
   int calm;     // for so many frames it has been slow
   nsvcd_velocity velocity;

@@ -12,7 +12,7 @@ typedef struct nsvcd__near_pair {
   uint32_t moving_triangle, fixed_triangle;
   uint16_t moving_patch, fixed_patch;
   // 1: it has its side, or is none
-  uint32_t is_settled;
+  uint32_t is_resolved;
 } nsvcd__near_pair;
 
 // A list of these, in the caller's memory; is_full: there were more.

@@ -17,7 +17,7 @@ static nsvcd__near_pair *nsvcd__next_near(const nsvcd__near_list *list) {
   nsvcd__near_pair *best = NULL;
   for (uint32_t n = 0; n < list->count; n++) {
     nsvcd__near_pair *item = &list->items[n];
-    if (!item->is_settled && (!best || item->distance < best->distance)) best = item;
+    if (!item->is_resolved && (!best || item->distance < best->distance)) best = item;
   }
   return best;
 }
@@ -91,7 +91,7 @@ static size_t nsvcd__write_contacts(nsvcd__query *query, nsvcd_contact *contacts
     nsvcd__posed_pair posed;
     nsvcd__near_pair *item = nsvcd__next_near(list);
     if (!item) break;
-    item->is_settled = 1;
+    item->is_resolved = 1;
     nsvcd__posed_pair_of(p, &at, item, &posed);
     const nsvcd__nearest points = nsvcd__near_points(posed.posed, posed.pair.fixed);
     if (nsvcd__goes_on_beside(p, item->moving_triangle, item->fixed_triangle, &points,
@@ -103,7 +103,7 @@ static size_t nsvcd__write_contacts(nsvcd__query *query, nsvcd_contact *contacts
     for (uint32_t n = 0; n < list->count; n++) {
       nsvcd__near_pair *other = &list->items[n];
       if (nsvcd__f3_dot(other->normal, item->normal) >= NSVCD__SAME_SIDE)
-        other->is_settled = 1;
+        other->is_resolved = 1;
     }
     sides++;
   }

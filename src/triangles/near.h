@@ -150,7 +150,7 @@ static NSVCD__NOINLINE void nsvcd__list_near(nsvcd__proof *p, const nsvcd__trian
   item.fixed_entry = (uint32_t)pair->fixed_entry;
   item.moving_patch = (uint16_t)pair->moving_patch;
   item.fixed_patch = (uint16_t)pair->fixed_patch;
-  item.is_settled = 0;
+  item.is_resolved = 0;
   list->items[list->count++] = item;
 }
 #endif  // NSVCD_NO_PROOF

@@ -24,7 +24,7 @@ typedef struct nsvcd__hold {
   nsvcd__d3 arm, normal;
   // the other body's speed there
   nsvcd__d3 speed;
-  // metres: how much nearer it is than where the body comes to rest; below 0: farther
+  // metres: how much nearer it is than half a margin beyond the clearance; below 0: farther
   double lacks;
   // metres a second, along the normal: at least
   double least;
@@ -113,21 +113,19 @@ static void nsvcd__respond(nsvcd__thing *thing, nsvcd__hold *holds, size_t count
   }
 }
 
-// How fast a body is to go so that it comes to rest a margin off everything: a share of what each
-// contact lacks, in a frame. That is no speed that it has. Contacts are soft: so between two walls
-// that are too close for both margins it goes half way.
-static nsvcd__thing nsvcd__leaving(const nsvcd__thing *thing, const nsvcd__hold *holds,
-                                   size_t count, double seconds) {
-  nsvcd__thing out = *thing;
+// How fast a body is to go so that it is half a margin off everything: a share of what each contact
+// lacks, in a frame. That is no speed that it has, and it does not turn. Contacts are soft: so
+// between two walls that are too close for that it goes half way.
+static nsvcd__d3 nsvcd__leaving(const nsvcd__hold *holds, size_t count, double seconds) {
+  nsvcd__thing out;
   nsvcd__hold left[NSVCD_WORLD_CONTACTS];
-  out.linear = out.angular = nsvcd__d3_of(0, 0, 0);
-  out.friction = 0;
-  out.inverse_inertia = nsvcd__d3_of(0, 0, 0);
+  memset(&out, 0, sizeof out);
+  out.inverse_mass = 1;
   for (size_t k = 0; k < count; k++) {
     left[k] = holds[k];
     left[k].speed = nsvcd__d3_of(0, 0, 0);
     left[k].least = NSVCD__LEAVES * nsvcd__max(holds[k].lacks, 0) / seconds;
   }
   nsvcd__respond(&out, left, count, NSVCD__SOFT);
-  return out;
+  return out.linear;
 }

@@ -233,13 +233,10 @@ static void print_rest(const bench *b) {
 
 // ----------------------------------------------------------------------------------------- frames
 
-static size_t overlaps_of(const bench *b, const nsvcd_world *world, const oracle_mesh *exact,
-                          const size_t *ids, size_t movers) {
+static size_t overlaps_of(const nsvcd_world *world, const oracle_mesh *exact, size_t movers) {
   size_t found = 0;
   size_t pair_count;
   nsvcd_body_pair *pairs = (nsvcd_body_pair *)allocate(64 * (movers + 1) * sizeof *pairs);
-  (void)b;
-  (void)ids;
   if (nsvcd_world_pairs(world, 0, pairs, 64 * (movers + 1), &pair_count)) exit(REFUSED);
   for (size_t k = 0; k < pair_count && k < 64 * (movers + 1); k++) {
     nsvcd_world_body one, other;
@@ -341,7 +338,7 @@ static size_t print_frames(const bench *b, size_t movers, size_t frames) {
   for (size_t k = 0; k < frames; k++) sum += times[k];
   const double last = times[frames - 1];
   meter_sort(times, frames);
-  const size_t overlaps = overlaps_of(b, world, exact, ids, movers);
+  const size_t overlaps = overlaps_of(world, exact, movers);
   printf(
       "%zu movers, %zu frames: median %.2f  mean %.2f  99 %% %.2f  worst %.2f  last %.2f ms; %.1f "
       "questions a frame; %zu rest at the end, %zu overlap\n",
