@@ -10508,9 +10508,8 @@ static float nsvcd__interval_gap(const nsvcd__motion *m, uint32_t from, uint32_t
 #define NSVCD__LEAST_EPSILON 1.2e-7
 #define NSVCD__EPSILONS 3
 
-// Contact points are sought in so many patch pairs: the farthest along so many directions and, if
-// their area's width is less than this fraction of its length, along two more across that.
-#define NSVCD__CONTACT_PAIRS 64
+// Contact points are sought: the farthest along so many directions and, if their area's width is
+// less than this fraction of its length, along two more across that.
 #define NSVCD__AROUND 8
 #define NSVCD__SUPPORTS 10
 #define NSVCD__SLIM 0.3
@@ -10750,11 +10749,10 @@ typedef struct nsvcd__manifold {
 } nsvcd__manifold;
 
 // What is done with triangles that come within the clearance: they are contacts or, of a motion at
-// rest, all are collected, as touching or as supports, or are listed.
+// rest, all are collected as touching, or are listed.
 typedef enum nsvcd__collecting {
   NSVCD__CONTACTS,
   NSVCD__TOUCHING,
-  NSVCD__SUPPORTING,
   NSVCD__LISTING
 } nsvcd__collecting;
 
@@ -14786,8 +14784,7 @@ static NSVCD__NOINLINE void nsvcd__keep_support(const nsvcd__proof *p, nsvcd__ma
     if (!(more > m->same || (more >= -m->same && number < m->numbers[k]))) continue;
     if (!known) {
       contact = nsvcd__contact_at(p, f->pair, 0, &nearest);
-      const int may_go_on = p->goal.collects == NSVCD__LISTING && (number & 2);
-      if (may_go_on &&
+      if ((number & 2) &&
           nsvcd__goes_on_beside(p, contact.moving_triangle, contact.fixed_triangle, &nearest,
                                 nsvcd__d3_scale(normal, side)))
         return;
@@ -15231,6 +15228,8 @@ static NSVCD__NOINLINE int nsvcd__hulls_are_apart(nsvcd__solver *w, size_t i, si
       return 1;
     }
     if (step + 1 < NSVCD__GUESSES) continue;
+    // Hulls that meet take all steps, and of those so deep here only one in twenty are apart.
+    if (step >= NSVCD__GUESSES + 2 && found.gap < -0.5f * length * length) return 0;
     const nsvcd__f3 toward = nsvcd__f3_sub(found.difference, nearest);
     const float square = nsvcd__f3_dot(toward, toward);
     float fraction = square > 0 ? -nsvcd__f3_dot(nearest, toward) / square : 0;
@@ -15580,10 +15579,6 @@ static nsvcd__outcome nsvcd__find_witness_in(nsvcd__solver *w, size_t i, size_t 
       nsvcd__nearest nearest = {0, {0, 0, 0}, {0, 0, 0}};
       nsvcd__pose_triangle(at, pair.moving, posed);
       p->work++;
-      if (p->goal.collects == NSVCD__SUPPORTING) {
-        nsvcd__collect_supports(p, &p->of.kept.manifold, &pair, posed);
-        continue;
-      }
       if (p->goal.collects == NSVCD__LISTING) {
         nsvcd__list_near(p, &pair, posed);
         continue;
@@ -15983,8 +15978,8 @@ static int nsvcd__collects_on(const nsvcd__proof *p) {
   return p->push.contact_count < NSVCD__TOUCHES && !p->push.too_deep;
 }
 
-// Collects the contacts of fresh patch pairs at the start, or the patch pairs where contact points
-// may be. EXHAUSTED: there is no room for more, or no budget.
+// Collects the contacts of fresh patch pairs at the start, or lists them. EXHAUSTED: there is no
+// room for more, or no budget.
 static nsvcd__outcome nsvcd__collect_contacts(nsvcd__solver *w, const nsvcd__search *q) {
   nsvcd__proof *p = &w->p;
   for (size_t n = 0; n < w->fresh_count && nsvcd__collects_on(p); n++) {
@@ -15998,84 +15993,18 @@ static nsvcd__outcome nsvcd__collect_contacts(nsvcd__solver *w, const nsvcd__sea
         if (nsvcd__patches_apart(p, patches->moving, patches->fixed, 0, 0)) continue;
       }
       (void)nsvcd__find_witness(w, patches->moving, patches->fixed, 0, 0);
-    } else if (p->goal.collects == NSVCD__LISTING) {
+    } else {
       const uint32_t before = p->near_list.count;
       (void)nsvcd__find_witness(w, patches->moving, patches->fixed, 0, 0);
       if (p->near_list.count > before) {
         w->memo.held = nsvcd__f3_round(p->separating);
         w->memo.plane++;
       }
-    } else if (w->count < NSVCD__PATCH_PAIRS) {
-      p->of.kept.pairs[w->count++] = *patches;
     }
   }
   w->fresh_count = 0;
   const int goes_on = nsvcd__collects_on(p) && p->work <= p->goal.limit;
   return goes_on ? NSVCD__DONE : NSVCD__EXHAUSTED;
-}
-
-// Bounds, along directions first .. last - 1 of a manifold, of the points on both patches of a
-// patch pair, the moving one posed: they are in both hulls.
-static void nsvcd__bound_of(const nsvcd__proof *p, const nsvcd__transform *pose,
-                            const nsvcd__patch_pair *patches, int first, int last,
-                            float *most) {
-  const nsvcd__manifold *m = &p->of.kept.manifold;
-  const float scale = p->arcs.motion->scale;
-  const float margin = scale * p->moving.margins[patches->moving] + (float)m->tolerance;
-  const float fixed_margin = p->fixed.margins[patches->fixed];
-  for (int k = first; k < last; k++) {
-    const nsvcd__v3 along = nsvcd__v3_set(nsvcd__d3_narrow(m->along[k]));
-    float moving = -HUGE_VALF;
-    float fixed = -HUGE_VALF;
-    NSVCD__EACH_SLICE(l) {
-      const nsvcd__v3 hull = nsvcd__hull_of(&p->moving, patches->moving, l);
-      const nsvcd__v3 other = nsvcd__hull_of(&p->fixed, patches->fixed, l);
-      const nsvcd__v height = nsvcd__v3_dot(along, nsvcd__v3_transform(pose, hull));
-      moving = nsvcd__greatest_of(moving, height);
-      fixed = nsvcd__greatest_of(fixed, nsvcd__v3_dot(along, other));
-    }
-    most[k] = fminf(margin + moving, fixed_margin + fixed);
-  }
-}
-
-// The manifold of the patch pairs that were collected, in directions first .. last - 1: first of
-// those with the farthest bound along one, then of those that may still be farther. Where bodies
-// are deep in each other there are many, with few points that are like a contact: so only so many
-// are tried.
-static NSVCD__NOINLINE void nsvcd__seek_positions(nsvcd__solver *w, int first, int last) {
-  nsvcd__proof *p = &w->p;
-  nsvcd__manifold *m = &p->of.kept.manifold;
-  nsvcd__patch_pair *pairs = p->of.kept.pairs;
-  const nsvcd__dtransform at = nsvcd__dtransform_at(nsvcd__arc_at(&p->arcs, 0), 0);
-  const nsvcd__transform pose = nsvcd__transform_of(&at);
-  size_t tries = 0;
-  float farthest[NSVCD__SUPPORTS];
-  size_t best[NSVCD__SUPPORTS] = {0};
-  float most[NSVCD__SUPPORTS];
-  for (int k = first; k < last; k++) farthest[k] = -HUGE_VALF;
-  for (size_t n = 0; n < w->count; n++) {
-    pairs[n].sought = 0;
-    nsvcd__bound_of(p, &pose, &pairs[n], first, last, most);
-    for (int k = first; k < last; k++) {
-      if (most[k] > farthest[k]) best[k] = n;
-      farthest[k] = fmaxf(farthest[k], most[k]);
-    }
-  }
-  const size_t count = (size_t)(last - first);
-  for (size_t n = 0; n < count + w->count && w->count > 0; n++) {
-    const size_t which = n < count ? best[(size_t)first + n] : n - count;
-    nsvcd__patch_pair *patches = &pairs[which];
-    int matters = 0;
-    nsvcd__bound_of(p, &pose, patches, first, last, most);
-    for (int k = first; k < last; k++) matters |= (double)most[k] > m->farthest[k] + m->same;
-    if (patches->sought || !matters) continue;
-    if (tries == NSVCD__CONTACT_PAIRS ||
-        (tries == NSVCD__FEW_MISSES && !(m->farthest[first] > -HUGE_VAL)))
-      break;
-    patches->sought = 1;
-    tries++;
-    (void)nsvcd__find_witness(w, patches->moving, patches->fixed, 0, 0);
-  }
 }
 #endif  // NSVCD_NO_PROOF
 
@@ -18309,8 +18238,8 @@ static void nsvcd__record(const nsvcd__task *task, nsvcd__tape *tape) {
 // In: a processor. Out: the kernels for the widest vectors that it has.
 //
 // THE WAIST. A *kernel* is a function that works on vectors and is called from above. There are
-// eight: self_test_lanes, look_all, separate, is_contained_at_start, bound_distance,
-// seek_positions, ask_network and record. NSVCD__KERNEL(isa, separate)(...) calls one of them.
+// seven: self_test_lanes, look_all, separate, is_contained_at_start, bound_distance, ask_network
+// and record. NSVCD__KERNEL(isa, separate)(...) calls one of them.
 //
 // If the compiler's flags allow SSE2 only, the default on x86-64, the rooms that use vectors are
 // compiled three times: with SSE2 above, and here with AVX2 and with AVX-512, under other private
@@ -18369,7 +18298,6 @@ static void nsvcd__record(const nsvcd__task *task, nsvcd__tape *tape) {
 #define nsvcd__block_load NSVCD__AT(block_load)
 #define nsvcd__block_pose NSVCD__AT(block_pose)
 #define nsvcd__bound_distance NSVCD__AT(bound_distance)
-#define nsvcd__bound_of NSVCD__AT(bound_of)
 #define nsvcd__boxes_of_groups NSVCD__AT(boxes_of_groups)
 #define nsvcd__candidate_radius NSVCD__AT(candidate_radius)
 #define nsvcd__candidates_add NSVCD__AT(candidates_add)
@@ -18584,7 +18512,6 @@ static void nsvcd__record(const nsvcd__task *task, nsvcd__tape *tape) {
 #define nsvcd__search_tile NSVCD__AT(search_tile)
 #define nsvcd__seed_is_near NSVCD__AT(seed_is_near)
 #define nsvcd__seek_in_patch_pair NSVCD__AT(seek_in_patch_pair)
-#define nsvcd__seek_positions NSVCD__AT(seek_positions)
 #define nsvcd__seems_contained_at_start NSVCD__AT(seems_contained_at_start)
 #define nsvcd__segment_deviation NSVCD__AT(segment_deviation)
 #define nsvcd__segment_interval NSVCD__AT(segment_interval)
@@ -20263,7 +20190,8 @@ static NSVCD__NOINLINE void nsvcd__resolve_normal(nsvcd__proof *p, double clear_
 #endif  // NSVCD_NO_PROOF
 
 // ---------------------------------------------------------------------------------- query/supports
-// In: the farthest contact points along directions. Out: the directions, and the best four points.
+// In: bodies at rest, and a normal. Out: the triangle pairs that are near, and up to four contact
+// points that span the largest area.
 
 #ifndef NSVCD_NO_PROOF
 // Prepares a manifold of contacts with about this normal, unit, of bodies that move like this.
@@ -20363,6 +20291,44 @@ static NSVCD__NOINLINE int nsvcd__choose_four(const nsvcd__manifold *m, int *cho
     memcpy(chosen, four, 4 * sizeof *chosen);
   }
   return 4;
+}
+
+// Lists the triangle pairs of bodies at rest that come within the goal's clearance. There is one
+// segment: so the memory for the chords of the others is free. Returns 0 if some may be missing.
+static int nsvcd__list_all_near(nsvcd__query *query, nsvcd__goal goal) {
+  nsvcd__solver *w = query->solver;
+  nsvcd__search *q = &query->broad_phase;
+  nsvcd__near_list *list = &w->p.near_list;
+  nsvcd__chords *free_chords = q->members + 2;  // the second is that of spare boxes
+  list->items = (nsvcd__near_pair *)(void *)free_chords;
+  list->room = (uint32_t)((q->most_segments - 2) * sizeof *free_chords / sizeof *list->items);
+  list->count = list->is_full = 0;
+  goal.collects = NSVCD__LISTING;
+  const nsvcd__search_result result = nsvcd__search_anew(w, q, goal);
+  return !result.ran_out && !list->is_full;
+}
+
+// Chooses up to four contacts with about a normal from the list: which supports, and twice the area
+// that they span. Only triangle pairs are asked whose directions are no farther from it than a
+// cosine. Returns how many.
+static int nsvcd__supports_of(nsvcd__proof *p, nsvcd__d3 normal, const nsvcd__twist *twist,
+                              double least, double same, int *chosen, double *area) {
+  nsvcd__manifold *m = &p->of.kept.manifold;
+  const nsvcd__dtransform at = nsvcd__dtransform_at(nsvcd__arc_at(&p->arcs, 0), 0);
+  nsvcd__posed_pair posed;
+  int count = 0;
+  nsvcd__manifold_begin(m, normal, twist, p->goal.clearance, same);
+  for (int across = 0; across < 2; across++) {
+    if (across && !nsvcd__seek_across(m, *area)) break;
+    for (uint32_t n = 0; n < p->near_list.count; n++) {
+      const nsvcd__near_pair *item = &p->near_list.items[n];
+      if (nsvcd__d3_dot(nsvcd__d3_widen(item->normal), normal) < least) continue;
+      nsvcd__posed_pair_of(p, &at, item, &posed);
+      nsvcd__collect_supports(p, m, &posed.pair, posed.posed);
+    }
+    count = nsvcd__choose_four(m, chosen, area);
+  }
+  return count;
 }
 #endif  // NSVCD_NO_PROOF
 
@@ -20637,20 +20603,13 @@ static NSVCD__NOINLINE void nsvcd__write_manifold(nsvcd__query *query, nsvcd__go
   nsvcd__motion still = nsvcd__rest_at(task, (double)answer->nearest.time, poses);
   nsvcd__motion *whole = goal.motion;
   goal.motion = &still;
-  goal.collects = NSVCD__SUPPORTING;
   goal.clearance = w->p.given.clearance + fmax(nsvcd__to_of(task), 4 * epsilon);
   goal.limit = w->p.work + w->p.given.reserve;
-  (void)nsvcd__search_anew(w, &query->broad_phase, goal);
+  (void)nsvcd__list_all_near(query, goal);
   for (int k = 0; k < tries; k++) {
     int chosen[NSVCD_MAX_CONTACTS];
     double area;
-    nsvcd__manifold_begin(m, normals[k], &twist, goal.clearance, same);
-    NSVCD__KERNEL(w->isa, seek_positions)(w, 0, NSVCD__AROUND);
-    int count = nsvcd__choose_four(m, chosen, &area);
-    if (nsvcd__seek_across(m, area)) {
-      NSVCD__KERNEL(w->isa, seek_positions)(w, NSVCD__AROUND, NSVCD__SUPPORTS);
-      count = nsvcd__choose_four(m, chosen, &area);
-    }
+    const int count = nsvcd__supports_of(&w->p, normals[k], &twist, -1, same, chosen, &area);
     if (count == 0 || !(area > 1.001 * widest)) continue;
     widest = area;
     if (count > 2 && area > 0.1 * extent * extent) tries = 1;
@@ -21116,40 +21075,19 @@ static nsvcd__near_pair *nsvcd__next_near(const nsvcd__near_list *list) {
   return best;
 }
 
-// The supports of a side with this normal: the indices of up to four in the manifold. Returns how
-// many.
-static int nsvcd__supports_of_side(nsvcd__proof *p, const nsvcd__dtransform *at,
-                                   nsvcd__f3 normal, double same, int *chosen) {
-  nsvcd__manifold *m = &p->of.kept.manifold;
-  const nsvcd__twist rests = {{0, 0, 0}, {0, 0, 0}};
-  nsvcd__posed_pair posed;
-  int count = 0;
-  double area = 0;
-  nsvcd__manifold_begin(m, nsvcd__d3_widen(normal), &rests, p->goal.clearance, same);
-  for (int across = 0; across < 2; across++) {
-    if (across && !nsvcd__seek_across(m, area)) break;
-    for (uint32_t n = 0; n < p->near_list.count; n++) {
-      const nsvcd__near_pair *item = &p->near_list.items[n];
-      if (nsvcd__f3_dot(item->normal, normal) < NSVCD__SAME_SIDE) continue;
-      nsvcd__posed_pair_of(p, at, item, &posed);
-      nsvcd__collect_supports(p, m, &posed.pair, posed.posed);
-    }
-    count = nsvcd__choose_four(m, chosen, &area);
-  }
-  return count;
-}
-
 // The contacts of the side whose nearest triangle pair this is, with its nearest points: up to
 // NSVCD_MAX_CONTACTS, of which one is as near as these. Returns how many.
-static size_t nsvcd__contacts_of_side(nsvcd__query *query, const nsvcd__dtransform *at,
-                                      const nsvcd__near_pair *item,
+static size_t nsvcd__contacts_of_side(nsvcd__query *query, const nsvcd__near_pair *item,
                                       const nsvcd__posed_pair *posed,
                                       const nsvcd__nearest *points, double same,
                                       nsvcd_contact *out) {
   nsvcd__proof *p = &query->solver->p;
   const nsvcd__manifold *m = &p->of.kept.manifold;
   int chosen[NSVCD_MAX_CONTACTS];
-  int count = nsvcd__supports_of_side(p, at, item->normal, same, chosen);
+  const nsvcd__twist rests = {{0, 0, 0}, {0, 0, 0}};
+  double area;
+  int count = nsvcd__supports_of(p, nsvcd__d3_widen(item->normal), &rests,
+                                 (double)NSVCD__SAME_SIDE, same, chosen, &area);
   int closest = -1;  // to the nearest points
   int has_nearest = 0;
   for (int n = 0; n < count; n++) {
@@ -21191,8 +21129,7 @@ static size_t nsvcd__write_contacts(nsvcd__query *query, nsvcd_contact *contacts
     if (nsvcd__goes_on_beside(p, item->moving_triangle, item->fixed_triangle, &points,
                               nsvcd__d3_widen(item->normal)))
       continue;
-    const size_t count =
-        nsvcd__contacts_of_side(query, &at, item, &posed, &points, same, found);
+    const size_t count = nsvcd__contacts_of_side(query, item, &posed, &points, same, found);
     for (size_t n = 0; n < count && written < most; n++) contacts[written++] = found[n];
     for (uint32_t n = 0; n < list->count; n++) {
       nsvcd__near_pair *other = &list->items[n];
@@ -21202,22 +21139,6 @@ static size_t nsvcd__write_contacts(nsvcd__query *query, nsvcd_contact *contacts
     sides++;
   }
   return written;
-}
-
-// Lists the near triangle pairs of a question that has been laid out. At rest there is one segment:
-// so the memory for the chords of the others is free. Returns 0 if some may be missing.
-static int nsvcd__list_all_near(nsvcd__query *query) {
-  nsvcd__solver *w = query->solver;
-  nsvcd__search *q = &query->broad_phase;
-  nsvcd__goal goal = nsvcd__proof_begin(query);
-  nsvcd__near_list *list = &w->p.near_list;
-  nsvcd__chords *free_chords = q->members + 2;  // the second is that of spare boxes
-  list->items = (nsvcd__near_pair *)(void *)free_chords;
-  list->room = (uint32_t)((q->most_segments - 2) * sizeof *free_chords / sizeof *list->items);
-  list->count = list->is_full = 0;
-  goal.collects = NSVCD__LISTING;
-  const nsvcd__search_result result = nsvcd__search_anew(w, q, goal);
-  return !result.ran_out && !list->is_full;
 }
 #endif  // NSVCD_NO_PROOF
 
@@ -21234,7 +21155,7 @@ static nsvcd_result nsvcd__run_contacts(nsvcd__isa isa, const nsvcd_question *qu
   if (!(question->clearance > 0)) return NSVCD_ERROR_CLEARANCE;
 #ifndef NSVCD_NO_PROOF
   nsvcd__query *query = nsvcd__query_open(isa, question, workspace);
-  const int is_whole = nsvcd__list_all_near(query);
+  const int is_whole = nsvcd__list_all_near(query, nsvcd__proof_begin(query));
   *count = nsvcd__write_contacts(query, contacts, most);
   for (size_t n = 0; n < *count && query->task.swapped; n++) nsvcd__swap_contact(&contacts[n]);
   if (is_partial) *is_partial = !is_whole;

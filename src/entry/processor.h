@@ -1,8 +1,8 @@
 // In: a processor. Out: the kernels for the widest vectors that it has.
 //
 // THE WAIST. A *kernel* is a function that works on vectors and is called from above. There are
-// eight: self_test_lanes, look_all, separate, is_contained_at_start, bound_distance,
-// seek_positions, ask_network and record. NSVCD__KERNEL(isa, separate)(...) calls one of them.
+// seven: self_test_lanes, look_all, separate, is_contained_at_start, bound_distance, ask_network
+// and record. NSVCD__KERNEL(isa, separate)(...) calls one of them.
 //
 // If the compiler's flags allow SSE2 only, the default on x86-64, the rooms that use vectors are
 // compiled three times: with SSE2 above, and here with AVX2 and with AVX-512, under other private

@@ -210,11 +210,10 @@ typedef struct nsvcd__manifold {
 } nsvcd__manifold;
 
 // What is done with triangles that come within the clearance: they are contacts or, of a motion at
-// rest, all are collected, as touching or as supports, or are listed.
+// rest, all are collected as touching, or are listed.
 typedef enum nsvcd__collecting {
   NSVCD__CONTACTS,
   NSVCD__TOUCHING,
-  NSVCD__SUPPORTING,
   NSVCD__LISTING
 } nsvcd__collecting;
 

@@ -89,9 +89,8 @@
 #define NSVCD__LEAST_EPSILON 1.2e-7
 #define NSVCD__EPSILONS 3
 
-// Contact points are sought in so many patch pairs: the farthest along so many directions and, if
-// their area's width is less than this fraction of its length, along two more across that.
-#define NSVCD__CONTACT_PAIRS 64
+// Contact points are sought: the farthest along so many directions and, if their area's width is
+// less than this fraction of its length, along two more across that.
 #define NSVCD__AROUND 8
 #define NSVCD__SUPPORTS 10
 #define NSVCD__SLIM 0.3

@@ -274,20 +274,13 @@ static NSVCD__NOINLINE void nsvcd__write_manifold(nsvcd__query *query, nsvcd__go
   nsvcd__motion still = nsvcd__rest_at(task, (double)answer->nearest.time, poses);
   nsvcd__motion *whole = goal.motion;
   goal.motion = &still;
-  goal.collects = NSVCD__SUPPORTING;
   goal.clearance = w->p.given.clearance + fmax(nsvcd__to_of(task), 4 * epsilon);
   goal.limit = w->p.work + w->p.given.reserve;
-  (void)nsvcd__search_anew(w, &query->broad_phase, goal);
+  (void)nsvcd__list_all_near(query, goal);
   for (int k = 0; k < tries; k++) {
     int chosen[NSVCD_MAX_CONTACTS];
     double area;
-    nsvcd__manifold_begin(m, normals[k], &twist, goal.clearance, same);
-    NSVCD__KERNEL(w->isa, seek_positions)(w, 0, NSVCD__AROUND);
-    int count = nsvcd__choose_four(m, chosen, &area);
-    if (nsvcd__seek_across(m, area)) {
-      NSVCD__KERNEL(w->isa, seek_positions)(w, NSVCD__AROUND, NSVCD__SUPPORTS);
-      count = nsvcd__choose_four(m, chosen, &area);
-    }
+    const int count = nsvcd__supports_of(&w->p, normals[k], &twist, -1, same, chosen, &area);
     if (count == 0 || !(area > 1.001 * widest)) continue;
     widest = area;
     if (count > 2 && area > 0.1 * extent * extent) tries = 1;

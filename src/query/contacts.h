@@ -22,40 +22,19 @@ static nsvcd__near_pair *nsvcd__next_near(const nsvcd__near_list *list) {
   return best;
 }
 
-// The supports of a side with this normal: the indices of up to four in the manifold. Returns how
-// many.
-static int nsvcd__supports_of_side(nsvcd__proof *p, const nsvcd__dtransform *at,
-                                   nsvcd__f3 normal, double same, int *chosen) {
-  nsvcd__manifold *m = &p->of.kept.manifold;
-  const nsvcd__twist rests = {{0, 0, 0}, {0, 0, 0}};
-  nsvcd__posed_pair posed;
-  int count = 0;
-  double area = 0;
-  nsvcd__manifold_begin(m, nsvcd__d3_widen(normal), &rests, p->goal.clearance, same);
-  for (int across = 0; across < 2; across++) {
-    if (across && !nsvcd__seek_across(m, area)) break;
-    for (uint32_t n = 0; n < p->near_list.count; n++) {
-      const nsvcd__near_pair *item = &p->near_list.items[n];
-      if (nsvcd__f3_dot(item->normal, normal) < NSVCD__SAME_SIDE) continue;
-      nsvcd__posed_pair_of(p, at, item, &posed);
-      nsvcd__collect_supports(p, m, &posed.pair, posed.posed);
-    }
-    count = nsvcd__choose_four(m, chosen, &area);
-  }
-  return count;
-}
-
 // The contacts of the side whose nearest triangle pair this is, with its nearest points: up to
 // NSVCD_MAX_CONTACTS, of which one is as near as these. Returns how many.
-static size_t nsvcd__contacts_of_side(nsvcd__query *query, const nsvcd__dtransform *at,
-                                      const nsvcd__near_pair *item,
+static size_t nsvcd__contacts_of_side(nsvcd__query *query, const nsvcd__near_pair *item,
                                       const nsvcd__posed_pair *posed,
                                       const nsvcd__nearest *points, double same,
                                       nsvcd_contact *out) {
   nsvcd__proof *p = &query->solver->p;
   const nsvcd__manifold *m = &p->of.kept.manifold;
   int chosen[NSVCD_MAX_CONTACTS];
-  int count = nsvcd__supports_of_side(p, at, item->normal, same, chosen);
+  const nsvcd__twist rests = {{0, 0, 0}, {0, 0, 0}};
+  double area;
+  int count = nsvcd__supports_of(p, nsvcd__d3_widen(item->normal), &rests,
+                                 (double)NSVCD__SAME_SIDE, same, chosen, &area);
   int closest = -1;  // to the nearest points
   int has_nearest = 0;
   for (int n = 0; n < count; n++) {
@@ -97,8 +76,7 @@ static size_t nsvcd__write_contacts(nsvcd__query *query, nsvcd_contact *contacts
     if (nsvcd__goes_on_beside(p, item->moving_triangle, item->fixed_triangle, &points,
                               nsvcd__d3_widen(item->normal)))
       continue;
-    const size_t count =
-        nsvcd__contacts_of_side(query, &at, item, &posed, &points, same, found);
+    const size_t count = nsvcd__contacts_of_side(query, item, &posed, &points, same, found);
     for (size_t n = 0; n < count && written < most; n++) contacts[written++] = found[n];
     for (uint32_t n = 0; n < list->count; n++) {
       nsvcd__near_pair *other = &list->items[n];
@@ -108,22 +86,6 @@ static size_t nsvcd__write_contacts(nsvcd__query *query, nsvcd_contact *contacts
     sides++;
   }
   return written;
-}
-
-// Lists the near triangle pairs of a question that has been laid out. At rest there is one segment:
-// so the memory for the chords of the others is free. Returns 0 if some may be missing.
-static int nsvcd__list_all_near(nsvcd__query *query) {
-  nsvcd__solver *w = query->solver;
-  nsvcd__search *q = &query->broad_phase;
-  nsvcd__goal goal = nsvcd__proof_begin(query);
-  nsvcd__near_list *list = &w->p.near_list;
-  nsvcd__chords *free_chords = q->members + 2;  // the second is that of spare boxes
-  list->items = (nsvcd__near_pair *)(void *)free_chords;
-  list->room = (uint32_t)((q->most_segments - 2) * sizeof *free_chords / sizeof *list->items);
-  list->count = list->is_full = 0;
-  goal.collects = NSVCD__LISTING;
-  const nsvcd__search_result result = nsvcd__search_anew(w, q, goal);
-  return !result.ran_out && !list->is_full;
 }
 #endif  // NSVCD_NO_PROOF
 
@@ -140,7 +102,7 @@ static nsvcd_result nsvcd__run_contacts(nsvcd__isa isa, const nsvcd_question *qu
   if (!(question->clearance > 0)) return NSVCD_ERROR_CLEARANCE;
 #ifndef NSVCD_NO_PROOF
   nsvcd__query *query = nsvcd__query_open(isa, question, workspace);
-  const int is_whole = nsvcd__list_all_near(query);
+  const int is_whole = nsvcd__list_all_near(query, nsvcd__proof_begin(query));
   *count = nsvcd__write_contacts(query, contacts, most);
   for (size_t n = 0; n < *count && query->task.swapped; n++) nsvcd__swap_contact(&contacts[n]);
   if (is_partial) *is_partial = !is_whole;

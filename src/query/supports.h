@@ -1,6 +1,8 @@
-// In: the farthest contact points along directions. Out: the directions, and the best four points.
+// In: bodies at rest, and a normal. Out: the triangle pairs that are near, and up to four contact
+// points that span the largest area.
 #pragma once
-#include "../entry/processor.h"
+#include "../task/task.h"
+#include "verdict.h"
 
 #ifndef NSVCD_NO_PROOF
 // Prepares a manifold of contacts with about this normal, unit, of bodies that move like this.
@@ -100,5 +102,43 @@ static NSVCD__NOINLINE int nsvcd__choose_four(const nsvcd__manifold *m, int *cho
     memcpy(chosen, four, 4 * sizeof *chosen);
   }
   return 4;
+}
+
+// Lists the triangle pairs of bodies at rest that come within the goal's clearance. There is one
+// segment: so the memory for the chords of the others is free. Returns 0 if some may be missing.
+static int nsvcd__list_all_near(nsvcd__query *query, nsvcd__goal goal) {
+  nsvcd__solver *w = query->solver;
+  nsvcd__search *q = &query->broad_phase;
+  nsvcd__near_list *list = &w->p.near_list;
+  nsvcd__chords *free_chords = q->members + 2;  // the second is that of spare boxes
+  list->items = (nsvcd__near_pair *)(void *)free_chords;
+  list->room = (uint32_t)((q->most_segments - 2) * sizeof *free_chords / sizeof *list->items);
+  list->count = list->is_full = 0;
+  goal.collects = NSVCD__LISTING;
+  const nsvcd__search_result result = nsvcd__search_anew(w, q, goal);
+  return !result.ran_out && !list->is_full;
+}
+
+// Chooses up to four contacts with about a normal from the list: which supports, and twice the area
+// that they span. Only triangle pairs are asked whose directions are no farther from it than a
+// cosine. Returns how many.
+static int nsvcd__supports_of(nsvcd__proof *p, nsvcd__d3 normal, const nsvcd__twist *twist,
+                              double least, double same, int *chosen, double *area) {
+  nsvcd__manifold *m = &p->of.kept.manifold;
+  const nsvcd__dtransform at = nsvcd__dtransform_at(nsvcd__arc_at(&p->arcs, 0), 0);
+  nsvcd__posed_pair posed;
+  int count = 0;
+  nsvcd__manifold_begin(m, normal, twist, p->goal.clearance, same);
+  for (int across = 0; across < 2; across++) {
+    if (across && !nsvcd__seek_across(m, *area)) break;
+    for (uint32_t n = 0; n < p->near_list.count; n++) {
+      const nsvcd__near_pair *item = &p->near_list.items[n];
+      if (nsvcd__d3_dot(nsvcd__d3_widen(item->normal), normal) < least) continue;
+      nsvcd__posed_pair_of(p, &at, item, &posed);
+      nsvcd__collect_supports(p, m, &posed.pair, posed.posed);
+    }
+    count = nsvcd__choose_four(m, chosen, area);
+  }
+  return count;
 }
 #endif  // NSVCD_NO_PROOF

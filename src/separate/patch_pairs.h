@@ -306,8 +306,8 @@ static int nsvcd__collects_on(const nsvcd__proof *p) {
   return p->push.contact_count < NSVCD__TOUCHES && !p->push.too_deep;
 }
 
-// Collects the contacts of fresh patch pairs at the start, or the patch pairs where contact points
-// may be. EXHAUSTED: there is no room for more, or no budget.
+// Collects the contacts of fresh patch pairs at the start, or lists them. EXHAUSTED: there is no
+// room for more, or no budget.
 static nsvcd__outcome nsvcd__collect_contacts(nsvcd__solver *w, const nsvcd__search *q) {
   nsvcd__proof *p = &w->p;
   for (size_t n = 0; n < w->fresh_count && nsvcd__collects_on(p); n++) {
@@ -321,83 +321,17 @@ static nsvcd__outcome nsvcd__collect_contacts(nsvcd__solver *w, const nsvcd__sea
         if (nsvcd__patches_apart(p, patches->moving, patches->fixed, 0, 0)) continue;
       }
       (void)nsvcd__find_witness(w, patches->moving, patches->fixed, 0, 0);
-    } else if (p->goal.collects == NSVCD__LISTING) {
+    } else {
       const uint32_t before = p->near_list.count;
       (void)nsvcd__find_witness(w, patches->moving, patches->fixed, 0, 0);
       if (p->near_list.count > before) {
         w->memo.held = nsvcd__f3_round(p->separating);
         w->memo.plane++;
       }
-    } else if (w->count < NSVCD__PATCH_PAIRS) {
-      p->of.kept.pairs[w->count++] = *patches;
     }
   }
   w->fresh_count = 0;
   const int goes_on = nsvcd__collects_on(p) && p->work <= p->goal.limit;
   return goes_on ? NSVCD__DONE : NSVCD__EXHAUSTED;
-}
-
-// Bounds, along directions first .. last - 1 of a manifold, of the points on both patches of a
-// patch pair, the moving one posed: they are in both hulls.
-static void nsvcd__bound_of(const nsvcd__proof *p, const nsvcd__transform *pose,
-                            const nsvcd__patch_pair *patches, int first, int last,
-                            float *most) {
-  const nsvcd__manifold *m = &p->of.kept.manifold;
-  const float scale = p->arcs.motion->scale;
-  const float margin = scale * p->moving.margins[patches->moving] + (float)m->tolerance;
-  const float fixed_margin = p->fixed.margins[patches->fixed];
-  for (int k = first; k < last; k++) {
-    const nsvcd__v3 along = nsvcd__v3_set(nsvcd__d3_narrow(m->along[k]));
-    float moving = -HUGE_VALF;
-    float fixed = -HUGE_VALF;
-    NSVCD__EACH_SLICE(l) {
-      const nsvcd__v3 hull = nsvcd__hull_of(&p->moving, patches->moving, l);
-      const nsvcd__v3 other = nsvcd__hull_of(&p->fixed, patches->fixed, l);
-      const nsvcd__v height = nsvcd__v3_dot(along, nsvcd__v3_transform(pose, hull));
-      moving = nsvcd__greatest_of(moving, height);
-      fixed = nsvcd__greatest_of(fixed, nsvcd__v3_dot(along, other));
-    }
-    most[k] = fminf(margin + moving, fixed_margin + fixed);
-  }
-}
-
-// The manifold of the patch pairs that were collected, in directions first .. last - 1: first of
-// those with the farthest bound along one, then of those that may still be farther. Where bodies
-// are deep in each other there are many, with few points that are like a contact: so only so many
-// are tried.
-static NSVCD__NOINLINE void nsvcd__seek_positions(nsvcd__solver *w, int first, int last) {
-  nsvcd__proof *p = &w->p;
-  nsvcd__manifold *m = &p->of.kept.manifold;
-  nsvcd__patch_pair *pairs = p->of.kept.pairs;
-  const nsvcd__dtransform at = nsvcd__dtransform_at(nsvcd__arc_at(&p->arcs, 0), 0);
-  const nsvcd__transform pose = nsvcd__transform_of(&at);
-  size_t tries = 0;
-  float farthest[NSVCD__SUPPORTS];
-  size_t best[NSVCD__SUPPORTS] = {0};
-  float most[NSVCD__SUPPORTS];
-  for (int k = first; k < last; k++) farthest[k] = -HUGE_VALF;
-  for (size_t n = 0; n < w->count; n++) {
-    pairs[n].sought = 0;
-    nsvcd__bound_of(p, &pose, &pairs[n], first, last, most);
-    for (int k = first; k < last; k++) {
-      if (most[k] > farthest[k]) best[k] = n;
-      farthest[k] = fmaxf(farthest[k], most[k]);
-    }
-  }
-  const size_t count = (size_t)(last - first);
-  for (size_t n = 0; n < count + w->count && w->count > 0; n++) {
-    const size_t which = n < count ? best[(size_t)first + n] : n - count;
-    nsvcd__patch_pair *patches = &pairs[which];
-    int matters = 0;
-    nsvcd__bound_of(p, &pose, patches, first, last, most);
-    for (int k = first; k < last; k++) matters |= (double)most[k] > m->farthest[k] + m->same;
-    if (patches->sought || !matters) continue;
-    if (tries == NSVCD__CONTACT_PAIRS ||
-        (tries == NSVCD__FEW_MISSES && !(m->farthest[first] > -HUGE_VAL)))
-      break;
-    patches->sought = 1;
-    tries++;
-    (void)nsvcd__find_witness(w, patches->moving, patches->fixed, 0, 0);
-  }
 }
 #endif  // NSVCD_NO_PROOF

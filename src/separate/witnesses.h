@@ -33,10 +33,6 @@ static nsvcd__outcome nsvcd__find_witness_in(nsvcd__solver *w, size_t i, size_t 
       nsvcd__nearest nearest = {0, {0, 0, 0}, {0, 0, 0}};
       nsvcd__pose_triangle(at, pair.moving, posed);
       p->work++;
-      if (p->goal.collects == NSVCD__SUPPORTING) {
-        nsvcd__collect_supports(p, &p->of.kept.manifold, &pair, posed);
-        continue;
-      }
       if (p->goal.collects == NSVCD__LISTING) {
         nsvcd__list_near(p, &pair, posed);
         continue;

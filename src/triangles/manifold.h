@@ -73,8 +73,7 @@ static NSVCD__NOINLINE void nsvcd__keep_support(const nsvcd__proof *p, nsvcd__ma
     if (!(more > m->same || (more >= -m->same && number < m->numbers[k]))) continue;
     if (!known) {
       contact = nsvcd__contact_at(p, f->pair, 0, &nearest);
-      const int may_go_on = p->goal.collects == NSVCD__LISTING && (number & 2);
-      if (may_go_on &&
+      if ((number & 2) &&
           nsvcd__goes_on_beside(p, contact.moving_triangle, contact.fixed_triangle, &nearest,
                                 nsvcd__d3_scale(normal, side)))
         return;
