@@ -262,7 +262,8 @@ typedef struct nsvcd_slide_answer {
 //   source     sequential impulses (Catto 2006) for the contacts of one body; this library
 //
 // What is proven: where the body is at the end, it is farther than the clearance from every other
-// body, and was so on its way there. What a contact does to its speed is no proof, only physics:
+// body, and was so on its way there. Where something else has come nearer to it than that, it is
+// pushed out, by at most four times the clearance, and meets nothing on that way. What a contact does to its speed is no proof, only physics:
 // impulses are those of a body that meets others that rest or are driven. Whoever wants what is hit
 // to move hands it the impulse.
 NSVCDDEF nsvcd_result nsvcd_world_slide(nsvcd_world *world, size_t id,
@@ -1620,6 +1621,16 @@ static int nsvcd__ask_about(nsvcd__asker *q, uint32_t id, nsvcd_answer *answer) 
   return 1;
 }
 
+// The same by a copy of the asker's that asks something else: it is the asker's question all the same.
+static int nsvcd__ask_for(nsvcd__asker *asked, nsvcd__asker *copy, uint32_t id,
+                          nsvcd_answer *answer) {
+  const int is_answered = nsvcd__ask_about(copy, id, answer);
+  asked->questions = copy->questions;
+  asked->work = copy->work;
+  asked->result = copy->result;
+  return is_answered;
+}
+
 // Makes a question an asker's. The mover may be without poses: then it is where it is in the world.
 static nsvcd_result nsvcd__asker_begin(const nsvcd_world *world,
                                        const nsvcd_world_question *asked, void *workspace,
@@ -1751,7 +1762,7 @@ static nsvcd__d3 nsvcd__join_push_outs(const nsvcd__d3 *normals, const double *d
 
 // The push-out of the mover out of all that it touches at the start, by the question's slop: twice
 // that at most, or 0 if there is none.
-static nsvcd__d3 nsvcd__push_out_of_all(const nsvcd__asker *asked) {
+static nsvcd__d3 nsvcd__push_out_of_all(nsvcd__asker *asked) {
   nsvcd__asker q = *asked;
   nsvcd__d3 normals[NSVCD__MOST_TOUCHED];
   double depths[NSVCD__MOST_TOUCHED];
@@ -1763,7 +1774,7 @@ static nsvcd__d3 nsvcd__push_out_of_all(const nsvcd__asker *asked) {
   nsvcd__asker_goes(&q, q.question.a.poses, 1);
   for (uint32_t id = 0; (id = nsvcd__asker_next(&q, id)) != 0;) {
     nsvcd_answer answer;
-    if (!nsvcd__ask_about(&q, id, &answer)) return none;
+    if (!nsvcd__ask_for(asked, &q, id, &answer)) return none;
     const nsvcd__d3 push_out = nsvcd__d3_load(answer.push_out);
     const double length = nsvcd__d3_norm(push_out);
     if (answer.depth > slop || count == NSVCD__MOST_TOUCHED) return none;
@@ -1798,27 +1809,30 @@ static nsvcd_pose nsvcd__pose_on_way(const nsvcd_mover *way, const nsvcd__d3 piv
   return nsvcd__dpose_round(&at);
 }
 
-// Is the mover free at a pose, at a part of the frame, of all bodies but one?
-static int nsvcd__may_be_at(const nsvcd__asker *asked, const nsvcd_pose *pose, double when,
-                            size_t but) {
+// Is the mover free at a pose, or on a way that it goes at once, at a part of the frame, of all
+// bodies but one?
+static int nsvcd__may_be_at(nsvcd__asker *asked, const nsvcd_pose *way, size_t count,
+                            double clearance, double when, size_t but) {
   nsvcd__asker q = *asked;
   q.since = when;
   q.at_once = 1;
   q.question.ask = NSVCD_ASK_HIT;
+  q.question.clearance = (float)clearance;
   q.question.to = q.question.to_time = q.question.slop = 0;
   q.question.manifold = 0;
   q.question.a.times = NULL;
-  nsvcd__asker_goes(&q, pose, 1);
+  nsvcd__asker_goes(&q, way, count);
   for (uint32_t id = 0; (id = nsvcd__asker_next(&q, id)) != 0;) {
     nsvcd_answer answer;
     if (id == but) continue;
-    if (!nsvcd__ask_about(&q, id, &answer) || answer.verdict != NSVCD_FREE) return 0;
+    if (!nsvcd__ask_for(asked, &q, id, &answer) || answer.verdict != NSVCD_FREE) return 0;
   }
   return 1;
 }
 
 // Moves the safe pose back until it is proven to be free of all as it is in floats.
-static void nsvcd__make_safe(const nsvcd__asker *q, nsvcd__tally *t) {
+static void nsvcd__make_safe(nsvcd__asker *q, nsvcd__tally *t) {
+  const double clearance = (double)q->question.clearance;
   const nsvcd_mover *way = &q->question.a;
   const nsvcd__f3 size = nsvcd__f3_sub(q->box.high, q->box.low);
   const nsvcd__f3 most = nsvcd__f3_max(q->box.high, nsvcd__f3_scale(q->box.low, -1));
@@ -1827,7 +1841,7 @@ static void nsvcd__make_safe(const nsvcd__asker *q, nsvcd__tally *t) {
   size_t but = t->safe_by;
   for (int k = 0; k < NSVCD__BACK && t->safe_time > 0; k++) {
     const double when = q->since + (double)t->safe_time * (1 - q->since);
-    if (nsvcd__may_be_at(q, &t->safe, when, but)) return;
+    if (nsvcd__may_be_at(q, &t->safe, 1, clearance, when, but)) return;
     t->safe_time = (float)nsvcd__max((double)t->safe_time - back, 0);
     t->safe = nsvcd__pose_on_way(way, q->shape.pivot, (double)t->safe_time);
     back *= 2;
@@ -2269,7 +2283,8 @@ static double nsvcd__go_by(nsvcd__slide *s, nsvcd__d3 by) {
 }
 
 // The body cannot go on: something is within its clearance, or about to come there. It is pushed
-// out, to where it rests or else as far as it has to be. Returns whether it was.
+// out, to where it rests or else as far as it has to be, by a way on which it meets nothing. Returns
+// whether it was.
 static int nsvcd__push_off(nsvcd__slide *s) {
   nsvcd__asker q = s->ask;
   q.since = 1 - s->left;
@@ -2278,9 +2293,15 @@ static int nsvcd__push_off(nsvcd__slide *s) {
     q.question.clearance = (float)(s->clearance + (k ? 0 : 0.75 * s->margin));
     q.question.slop = 2 * q.question.clearance;
     const nsvcd__d3 by = nsvcd__push_out_of_all(&q);
-    const nsvcd_pose to = nsvcd__displaced(&s->pose, by);
-    if (!(nsvcd__d3_dot(by, by) > 0) || !nsvcd__may_be_at(&s->ask, &to, q.since, 0)) continue;
-    s->pose = to;
+    const nsvcd_pose way[2] = {s->pose, nsvcd__displaced(&s->pose, by)};
+    const int may_go = nsvcd__d3_dot(by, by) > 0 &&
+                       nsvcd__may_be_at(&q, &way[1], 1, s->clearance, q.since, 0) &&
+                       nsvcd__may_be_at(&q, way, 2, 0, q.since, 0);
+    s->ask.questions = q.questions;
+    s->ask.work = q.work;
+    s->ask.result = q.result;
+    if (!may_go) continue;
+    s->pose = way[1];
     return 1;
   }
   return 0;

@@ -83,6 +83,16 @@ static int nsvcd__ask_about(nsvcd__asker *q, uint32_t id, nsvcd_answer *answer) 
   return 1;
 }
 
+// The same by a copy of the asker's that asks something else: it is the asker's question all the same.
+static int nsvcd__ask_for(nsvcd__asker *asked, nsvcd__asker *copy, uint32_t id,
+                          nsvcd_answer *answer) {
+  const int is_answered = nsvcd__ask_about(copy, id, answer);
+  asked->questions = copy->questions;
+  asked->work = copy->work;
+  asked->result = copy->result;
+  return is_answered;
+}
+
 // Makes a question an asker's. The mover may be without poses: then it is where it is in the world.
 static nsvcd_result nsvcd__asker_begin(const nsvcd_world *world,
                                        const nsvcd_world_question *asked, void *workspace,
@@ -214,7 +224,7 @@ static nsvcd__d3 nsvcd__join_push_outs(const nsvcd__d3 *normals, const double *d
 
 // The push-out of the mover out of all that it touches at the start, by the question's slop: twice
 // that at most, or 0 if there is none.
-static nsvcd__d3 nsvcd__push_out_of_all(const nsvcd__asker *asked) {
+static nsvcd__d3 nsvcd__push_out_of_all(nsvcd__asker *asked) {
   nsvcd__asker q = *asked;
   nsvcd__d3 normals[NSVCD__MOST_TOUCHED];
   double depths[NSVCD__MOST_TOUCHED];
@@ -226,7 +236,7 @@ static nsvcd__d3 nsvcd__push_out_of_all(const nsvcd__asker *asked) {
   nsvcd__asker_goes(&q, q.question.a.poses, 1);
   for (uint32_t id = 0; (id = nsvcd__asker_next(&q, id)) != 0;) {
     nsvcd_answer answer;
-    if (!nsvcd__ask_about(&q, id, &answer)) return none;
+    if (!nsvcd__ask_for(asked, &q, id, &answer)) return none;
     const nsvcd__d3 push_out = nsvcd__d3_load(answer.push_out);
     const double length = nsvcd__d3_norm(push_out);
     if (answer.depth > slop || count == NSVCD__MOST_TOUCHED) return none;
@@ -261,27 +271,30 @@ static nsvcd_pose nsvcd__pose_on_way(const nsvcd_mover *way, const nsvcd__d3 piv
   return nsvcd__dpose_round(&at);
 }
 
-// Is the mover free at a pose, at a part of the frame, of all bodies but one?
-static int nsvcd__may_be_at(const nsvcd__asker *asked, const nsvcd_pose *pose, double when,
-                            size_t but) {
+// Is the mover free at a pose, or on a way that it goes at once, at a part of the frame, of all
+// bodies but one?
+static int nsvcd__may_be_at(nsvcd__asker *asked, const nsvcd_pose *way, size_t count,
+                            double clearance, double when, size_t but) {
   nsvcd__asker q = *asked;
   q.since = when;
   q.at_once = 1;
   q.question.ask = NSVCD_ASK_HIT;
+  q.question.clearance = (float)clearance;
   q.question.to = q.question.to_time = q.question.slop = 0;
   q.question.manifold = 0;
   q.question.a.times = NULL;
-  nsvcd__asker_goes(&q, pose, 1);
+  nsvcd__asker_goes(&q, way, count);
   for (uint32_t id = 0; (id = nsvcd__asker_next(&q, id)) != 0;) {
     nsvcd_answer answer;
     if (id == but) continue;
-    if (!nsvcd__ask_about(&q, id, &answer) || answer.verdict != NSVCD_FREE) return 0;
+    if (!nsvcd__ask_for(asked, &q, id, &answer) || answer.verdict != NSVCD_FREE) return 0;
   }
   return 1;
 }
 
 // Moves the safe pose back until it is proven to be free of all as it is in floats.
-static void nsvcd__make_safe(const nsvcd__asker *q, nsvcd__tally *t) {
+static void nsvcd__make_safe(nsvcd__asker *q, nsvcd__tally *t) {
+  const double clearance = (double)q->question.clearance;
   const nsvcd_mover *way = &q->question.a;
   const nsvcd__f3 size = nsvcd__f3_sub(q->box.high, q->box.low);
   const nsvcd__f3 most = nsvcd__f3_max(q->box.high, nsvcd__f3_scale(q->box.low, -1));
@@ -290,7 +303,7 @@ static void nsvcd__make_safe(const nsvcd__asker *q, nsvcd__tally *t) {
   size_t but = t->safe_by;
   for (int k = 0; k < NSVCD__BACK && t->safe_time > 0; k++) {
     const double when = q->since + (double)t->safe_time * (1 - q->since);
-    if (nsvcd__may_be_at(q, &t->safe, when, but)) return;
+    if (nsvcd__may_be_at(q, &t->safe, 1, clearance, when, but)) return;
     t->safe_time = (float)nsvcd__max((double)t->safe_time - back, 0);
     t->safe = nsvcd__pose_on_way(way, q->shape.pivot, (double)t->safe_time);
     back *= 2;

@@ -174,7 +174,8 @@ static double nsvcd__go_by(nsvcd__slide *s, nsvcd__d3 by) {
 }
 
 // The body cannot go on: something is within its clearance, or about to come there. It is pushed
-// out, to where it rests or else as far as it has to be. Returns whether it was.
+// out, to where it rests or else as far as it has to be, by a way on which it meets nothing. Returns
+// whether it was.
 static int nsvcd__push_off(nsvcd__slide *s) {
   nsvcd__asker q = s->ask;
   q.since = 1 - s->left;
@@ -183,9 +184,15 @@ static int nsvcd__push_off(nsvcd__slide *s) {
     q.question.clearance = (float)(s->clearance + (k ? 0 : 0.75 * s->margin));
     q.question.slop = 2 * q.question.clearance;
     const nsvcd__d3 by = nsvcd__push_out_of_all(&q);
-    const nsvcd_pose to = nsvcd__displaced(&s->pose, by);
-    if (!(nsvcd__d3_dot(by, by) > 0) || !nsvcd__may_be_at(&s->ask, &to, q.since, 0)) continue;
-    s->pose = to;
+    const nsvcd_pose way[2] = {s->pose, nsvcd__displaced(&s->pose, by)};
+    const int may_go = nsvcd__d3_dot(by, by) > 0 &&
+                       nsvcd__may_be_at(&q, &way[1], 1, s->clearance, q.since, 0) &&
+                       nsvcd__may_be_at(&q, way, 2, 0, q.since, 0);
+    s->ask.questions = q.questions;
+    s->ask.work = q.work;
+    s->ask.result = q.result;
+    if (!may_go) continue;
+    s->pose = way[1];
     return 1;
   }
   return 0;
