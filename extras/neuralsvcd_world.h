@@ -2283,8 +2283,8 @@ static double nsvcd__go_by(nsvcd__slide *s, nsvcd__d3 by) {
 }
 
 // The body cannot go on: something is within its clearance, or about to come there. It is pushed
-// out, to where it rests or else as far as it has to be, by a way on which it meets nothing. Returns
-// whether it was.
+// out, to where it rests or else as far as it has to be, by a way on which it meets nothing.
+// Returns whether it was.
 static int nsvcd__push_off(nsvcd__slide *s) {
   nsvcd__asker q = s->ask;
   q.since = 1 - s->left;
