@@ -1621,7 +1621,7 @@ static int nsvcd__ask_about(nsvcd__asker *q, uint32_t id, nsvcd_answer *answer) 
   return 1;
 }
 
-// The same by a copy of the asker's that asks something else: it is the asker's question all the same.
+// The same by a copy of an asker that asks something else: the question counts as the asker's.
 static int nsvcd__ask_for(nsvcd__asker *asked, nsvcd__asker *copy, uint32_t id,
                           nsvcd_answer *answer) {
   const int is_answered = nsvcd__ask_about(copy, id, answer);
