@@ -263,9 +263,9 @@ typedef struct nsvcd_slide_answer {
 //
 // What is proven: where the body is at the end, it is farther than the clearance from every other
 // body, and was so on its way there. Where something else has come nearer to it than that, it is
-// pushed out, by at most four times the clearance, and meets nothing on that way. What a contact does to its speed is no proof, only physics:
-// impulses are those of a body that meets others that rest or are driven. Whoever wants what is hit
-// to move hands it the impulse.
+// pushed out, by at most four times the clearance, and meets nothing on that way. What a contact
+// does to its speed is no proof, only physics: impulses are those of a body that meets others that
+// rest or are driven. Whoever wants what is hit to move hands it the impulse.
 NSVCDDEF nsvcd_result nsvcd_world_slide(nsvcd_world *world, size_t id,
                                         const nsvcd_slide_options *options, float seconds,
                                         void *workspace, size_t workspace_size,
