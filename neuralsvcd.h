@@ -3999,14 +3999,16 @@ typedef struct nsvcd__patch_sum {
 typedef struct nsvcd__patches {
   size_t count;         // N
   size_t sample_count;  // S
-  // triangles and parts of them that the balls were fitted to
-  size_t piece_count;
   // (N) metres: the mean of the patch's samples
   nsvcd__f3 *centres;
+  // (N) metres: the ball about the centre contains the patch's samples
+  float *sample_radii;
+
+  // For latents only.
+  // triangles and parts of them that the balls were fitted to
+  size_t piece_count;
   // (N) metres: the ball about the centre contains the patch's pieces
   float *radii;
-  // (N) metres: the same for its samples
-  float *sample_radii;
   // (N) sums of area times normal; their sum is the mesh's
   nsvcd__f3 *area_vectors;
   // (N + 1) patch i has the samples offsets[i] .. offsets[i + 1] - 1
@@ -4071,7 +4073,7 @@ static double nsvcd__mesh_area(const nsvcd_mesh *mesh) {
 // Draws samples (count) and their unit normals (count), stratified by area: sample k lies in the
 // triangle where the area, summed in triangle order, passes (k + 1/2) / count of the total. Its
 // position there comes from the R2 sequence (Roberts 2018: multiples of 1/g and 1/g^2, g^3 = g +
-// 1). Without any area, triangles have equal weights and normals are 0.
+// 1). Without any area, triangles have equal weights and normals are 0. normals: or NULL.
 static void nsvcd__sample_surface(const nsvcd_mesh *mesh, size_t count, nsvcd__f3 *samples,
                                   nsvcd__f3 *normals) {
   const double all = nsvcd__mesh_area(mesh);
@@ -4099,14 +4101,15 @@ static void nsvcd__sample_surface(const nsvcd_mesh *mesh, size_t count, nsvcd__f
     const nsvcd__d3 ac = nsvcd__d3_sub(triangle.at[2], triangle.at[0]);
     const nsvcd__d3 along = nsvcd__d3_fma(u, ab, triangle.at[0]);
     samples[k] = nsvcd__d3_narrow(nsvcd__d3_fma(v, ac, along));
+    if (!normals) continue;
     normals[k] = nsvcd__f3_of(0, 0, 0);
     if (area > 0)
       normals[k] = nsvcd__d3_narrow(nsvcd__d3_over(nsvcd__area_vector(&triangle), area));
   }
 }
 
-// Makes room for patches and samples. 0 without memory.
-static int nsvcd__patches_alloc(nsvcd__patches *p, size_t count, size_t samples,
+// Makes room for patches and samples. latents: 1: for what these need, too. 0 without memory.
+static int nsvcd__patches_alloc(nsvcd__patches *p, size_t count, size_t samples, int latents,
                                 nsvcd__arena *arena) {
   const size_t links = NSVCD__NEIGHBOURS * count;
   memset(p, 0, sizeof *p);
@@ -4114,13 +4117,9 @@ static int nsvcd__patches_alloc(nsvcd__patches *p, size_t count, size_t samples,
   p->sample_count = samples;
   p->sums = NSVCD__TAKE(arena, nsvcd__patch_sum, count);
   p->centres = NSVCD__TAKE(arena, nsvcd__f3, count);
-  p->radii = NSVCD__TAKE(arena, float, count);
   p->sample_radii = NSVCD__TAKE(arena, float, count);
-  p->area_vectors = NSVCD__TAKE(arena, nsvcd__f3, count);
   p->drawn = NSVCD__TAKE(arena, nsvcd__f3, samples);
-  p->drawn_normals = NSVCD__TAKE(arena, nsvcd__f3, samples);
   p->samples = NSVCD__TAKE(arena, nsvcd__f3, samples);
-  p->normals = NSVCD__TAKE(arena, nsvcd__f3, samples);
   p->quarter_squares = NSVCD__TAKE(arena, float, links);
   p->greatest = NSVCD__TAKE(arena, float, count);
   p->first_sample = NSVCD__TAKE(arena, uint32_t, count);
@@ -4128,6 +4127,12 @@ static int nsvcd__patches_alloc(nsvcd__patches *p, size_t count, size_t samples,
   p->neighbours = NSVCD__TAKE(arena, uint32_t, links);
   p->offsets = NSVCD__TAKE(arena, uint32_t, count + 1);
   p->owners = NSVCD__TAKE(arena, uint16_t, samples);
+  if (latents) {
+    p->radii = NSVCD__TAKE(arena, float, count);
+    p->area_vectors = NSVCD__TAKE(arena, nsvcd__f3, count);
+    p->drawn_normals = NSVCD__TAKE(arena, nsvcd__f3, samples);
+    p->normals = NSVCD__TAKE(arena, nsvcd__f3, samples);
+  }
   if (arena->failed) return 0;
   p->squares = (float *)(void *)p->samples;
   p->next_sample = (uint32_t *)(void *)(p->squares + samples);
@@ -4290,10 +4295,17 @@ static float nsvcd__radius_above(double squared) {
   return (float)(sqrt(squared) * (1 + 4e-7));
 }
 
-// Writes the samples patch by patch (counting sort), and the sample radii.
+static void nsvcd__measure_samples(nsvcd__patches *p) {
+  memset(p->sums, 0, p->count * sizeof *p->sums);
+  for (size_t s = 0; s < p->sample_count; s++)
+    nsvcd__extend(p, p->owners[s], nsvcd__d3_widen(p->drawn[s]));
+  for (size_t i = 0; i < p->count; i++)
+    p->sample_radii[i] = nsvcd__radius_above(p->sums[i].greatest);
+}
+
+// Writes the samples patch by patch (counting sort).
 static void nsvcd__group_samples(nsvcd__patches *p) {
   memset(p->offsets, 0, (p->count + 1) * sizeof *p->offsets);
-  memset(p->sums, 0, p->count * sizeof *p->sums);
   for (size_t s = 0; s < p->sample_count; s++) p->offsets[p->owners[s] + 1]++;
   for (size_t i = 0; i < p->count; i++) p->offsets[i + 1] += p->offsets[i];
 
@@ -4303,18 +4315,15 @@ static void nsvcd__group_samples(nsvcd__patches *p) {
     const size_t to = p->offsets[owner]++;
     p->samples[to] = p->drawn[s];
     p->normals[to] = p->drawn_normals[s];
-    nsvcd__extend(p, owner, nsvcd__d3_widen(p->drawn[s]));
   }
   memmove(p->offsets + 1, p->offsets, p->count * sizeof *p->offsets);
   p->offsets[0] = 0;
-  for (size_t i = 0; i < p->count; i++)
-    p->sample_radii[i] = nsvcd__radius_above(p->sums[i].greatest);
 }
 #endif  // NSVCD_NO_ENCODER
 
 // -------------------------------------------------------------------------------- patches/covering
-// In: centres, their samples, and the mesh. Out: a ball for each patch; together they contain every
-// triangle.
+// In: centres, their samples, and the mesh. Out: for latents a ball for each patch; together they
+// contain every triangle.
 //
 // Triangles are halved across their longest edges until no edge exceeds `limit`. Each half goes to
 // the patch whose centre is nearest to its centroid, and that patch's ball grows to contain its
@@ -4427,11 +4436,12 @@ static void nsvcd__cover(nsvcd__patches *p, const nsvcd_mesh *mesh) {
 // ---- all of it
 
 // Splits the surface of a checked mesh into at most `count` patches, 1..NSVCD_SMALL_PATCHES: fewer
-// if samples coincide, or a patch loses all of its own. MEMORY.
-static nsvcd_result nsvcd__patches_build(const nsvcd_mesh *mesh, size_t count,
+// if samples coincide, or a patch loses all of its own. latents: 1: finds what only these need.
+// MEMORY.
+static nsvcd_result nsvcd__patches_build(const nsvcd_mesh *mesh, size_t count, int latents,
                                          nsvcd__arena *arena, nsvcd__patches *p) {
-  if (!nsvcd__patches_alloc(p, count, NSVCD__SAMPLES_PER_PATCH * count, arena))
-    return NSVCD_ERROR_MEMORY;
+  const size_t samples = NSVCD__SAMPLES_PER_PATCH * count;
+  if (!nsvcd__patches_alloc(p, count, samples, latents, arena)) return NSVCD_ERROR_MEMORY;
   nsvcd__sample_surface(mesh, p->sample_count, p->drawn, p->drawn_normals);
   nsvcd__farthest_points(p);
   nsvcd__move_centres(p);
@@ -4440,8 +4450,9 @@ static nsvcd_result nsvcd__patches_build(const nsvcd_mesh *mesh, size_t count,
       p->owners[s] = (uint16_t)nsvcd__nearest_centre(p, p->owners[s], p->drawn[s]);
     nsvcd__move_centres(p);
   }
-  nsvcd__group_samples(p);
-  nsvcd__cover(p, mesh);
+  nsvcd__measure_samples(p);
+  if (latents) nsvcd__group_samples(p);
+  if (latents) nsvcd__cover(p, mesh);
   return NSVCD_OK;
 }
 #endif  // NSVCD_NO_ENCODER
@@ -9363,7 +9374,8 @@ static nsvcd_result nsvcd__add_region(nsvcd__draft *d, nsvcd__regions *regions, 
   nsvcd__arena spare = nsvcd__arena_of(d->arena.allocator);
   nsvcd_result result = nsvcd__region_begin(regions, n, &spare, &region);
   if (result == NSVCD_ERROR_EMPTY) return NSVCD_OK;
-  if (!result) result = nsvcd__patches_build(&region.mesh, most, &spare, &patches);
+  if (!result)
+    result = nsvcd__patches_build(&region.mesh, most, d->options->latents, &spare, &patches);
   if (!result && (!nsvcd__pieces_build(&region, &patches, &spare, &pieces) ||
                   !nsvcd__sorted_build(&pieces, &spare, &sorted)))
     result = NSVCD_ERROR_MEMORY;

@@ -154,10 +154,17 @@ static float nsvcd__radius_above(double squared) {
   return (float)(sqrt(squared) * (1 + 4e-7));
 }
 
-// Writes the samples patch by patch (counting sort), and the sample radii.
+static void nsvcd__measure_samples(nsvcd__patches *p) {
+  memset(p->sums, 0, p->count * sizeof *p->sums);
+  for (size_t s = 0; s < p->sample_count; s++)
+    nsvcd__extend(p, p->owners[s], nsvcd__d3_widen(p->drawn[s]));
+  for (size_t i = 0; i < p->count; i++)
+    p->sample_radii[i] = nsvcd__radius_above(p->sums[i].greatest);
+}
+
+// Writes the samples patch by patch (counting sort).
 static void nsvcd__group_samples(nsvcd__patches *p) {
   memset(p->offsets, 0, (p->count + 1) * sizeof *p->offsets);
-  memset(p->sums, 0, p->count * sizeof *p->sums);
   for (size_t s = 0; s < p->sample_count; s++) p->offsets[p->owners[s] + 1]++;
   for (size_t i = 0; i < p->count; i++) p->offsets[i + 1] += p->offsets[i];
 
@@ -167,11 +174,8 @@ static void nsvcd__group_samples(nsvcd__patches *p) {
     const size_t to = p->offsets[owner]++;
     p->samples[to] = p->drawn[s];
     p->normals[to] = p->drawn_normals[s];
-    nsvcd__extend(p, owner, nsvcd__d3_widen(p->drawn[s]));
   }
   memmove(p->offsets + 1, p->offsets, p->count * sizeof *p->offsets);
   p->offsets[0] = 0;
-  for (size_t i = 0; i < p->count; i++)
-    p->sample_radii[i] = nsvcd__radius_above(p->sums[i].greatest);
 }
 #endif  // NSVCD_NO_ENCODER
