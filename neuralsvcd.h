@@ -4026,7 +4026,9 @@ typedef struct nsvcd__patches {
   float *squares;
   // (S), (N) linked lists of each centre's samples; the first one in the memory of `samples`
   uint32_t *next_sample, *first_sample;
-  // (N) each centre's farthest sample, and its squared distance
+  // 1: neighbours are listed
+  int linked;
+  // (N) each centre's farthest sample, and its squared distance; then working memory
   uint32_t *farthest_sample;
   float *greatest;
   // (N, NEIGHBOURS) the nearest other centres, nearest first, and a quarter of their squared
@@ -4151,18 +4153,26 @@ static float nsvcd__to_centre2(const nsvcd__patches *p, uint32_t centre, nsvcd__
 }
 
 // Lists the nearest other centres of each centre. A list that is not full ends in infinities.
-static void nsvcd__link_centres(nsvcd__patches *p) {
+// known: 1: there are lists from before the centres moved. What is in one of them is no farther
+// than its farthest, so that few centres are taken in and put out again.
+static void nsvcd__link_centres(nsvcd__patches *p, int known) {
   const size_t last = NSVCD__NEIGHBOURS - 1;
   for (uint32_t i = 0; i < p->count; i++) {
     uint32_t *neighbours = p->neighbours + (size_t)i * NSVCD__NEIGHBOURS;
     float *quarters = p->quarter_squares + (size_t)i * NSVCD__NEIGHBOURS;
+    float *all = p->greatest;
+    for (uint32_t j = 0; j < p->count; j++)
+      all[j] = 0.25f * nsvcd__to_centre2(p, j, p->centres[i]);
+    all[i] = HUGE_VALF;
+    float most = known ? 0 : HUGE_VALF;
     for (size_t k = 0; k <= last; k++) {
+      if (known && all[neighbours[k]] > most) most = all[neighbours[k]];
       neighbours[k] = i;
       quarters[k] = HUGE_VALF;
     }
     for (uint32_t j = 0; j < p->count; j++) {
-      const float quarter = 0.25f * nsvcd__to_centre2(p, j, p->centres[i]);
-      if (j == i || quarter >= quarters[last]) continue;
+      const float quarter = all[j];
+      if (quarter > most || quarter >= quarters[last]) continue;
       size_t k = last;
       for (; k > 0 && quarters[k - 1] > quarter; k--) {
         quarters[k] = quarters[k - 1];
@@ -4268,8 +4278,9 @@ static void nsvcd__move_centres(nsvcd__patches *p) {
     sum->weight += 1;
   }
 
+  const size_t before = p->count;
   uint32_t kept = 0;
-  for (size_t i = 0; i < p->count; i++) {
+  for (size_t i = 0; i < before; i++) {
     const nsvcd__patch_sum *sum = &p->sums[i];
     // until samples are grouped: the new number of patch i
     p->offsets[i] = kept;
@@ -4280,7 +4291,8 @@ static void nsvcd__move_centres(nsvcd__patches *p) {
   for (size_t s = 0; s < p->sample_count; s++)
     p->owners[s] = (uint16_t)p->offsets[p->owners[s]];
   p->count = kept;
-  nsvcd__link_centres(p);
+  nsvcd__link_centres(p, p->linked && kept == before);
+  p->linked = 1;
 }
 
 // Extends a patch's reach to a point.

@@ -158,7 +158,7 @@ static void mesh_centres_without_samples_are_dropped(void) {
   const nsvcd__f3 origin = {0, 0, 0};
   p.centres[0] = nsvcd__f3_of(1, 0, 0);
   p.centres[1] = nsvcd__f3_of(-1, 0, 0);
-  nsvcd__link_centres(&p);
+  nsvcd__link_centres(&p, 0);
   CHECK_EQ(nsvcd__nearest_centre(&p, 0, origin), 0);
   CHECK_EQ(nsvcd__nearest_centre(&p, 1, origin), 0);
   nsvcd__arena_free(&arena);

@@ -55,7 +55,9 @@ typedef struct nsvcd__patches {
   float *squares;
   // (S), (N) linked lists of each centre's samples; the first one in the memory of `samples`
   uint32_t *next_sample, *first_sample;
-  // (N) each centre's farthest sample, and its squared distance
+  // 1: neighbours are listed
+  int linked;
+  // (N) each centre's farthest sample, and its squared distance; then working memory
   uint32_t *farthest_sample;
   float *greatest;
   // (N, NEIGHBOURS) the nearest other centres, nearest first, and a quarter of their squared
