@@ -7,7 +7,6 @@
 #ifndef NSVCD_NO_ENCODER
 // the mean
 #define NSVCD__SAMPLES_PER_PATCH 32
-#define NSVCD__NO_SAMPLE 0xffffffffu
 #define NSVCD__LLOYD_STEPS 3
 // of each centre, to search for the nearest one
 #define NSVCD__NEIGHBOURS 16
@@ -53,8 +52,10 @@ typedef struct nsvcd__patches {
   uint16_t *owners;
   // (S) squared distance from the owner's centre; in the memory of `samples`
   float *squares;
-  // (S), (N) linked lists of each centre's samples; the first one in the memory of `samples`
-  uint32_t *next_sample, *first_sample;
+  // (2 S) lists of each centre's samples, centre by centre, with gaps; in the memory of `samples`
+  uint32_t *lists;
+  // (N) where a centre's list begins, and how long it is
+  uint32_t *first_sample, *held;
   // 1: neighbours are listed
   int linked;
   // (N) each centre's farthest sample, and its squared distance; then working memory
@@ -154,6 +155,7 @@ static int nsvcd__patches_alloc(nsvcd__patches *p, size_t count, size_t samples,
   p->quarter_squares = NSVCD__TAKE(arena, float, links);
   p->greatest = NSVCD__TAKE(arena, float, count);
   p->first_sample = NSVCD__TAKE(arena, uint32_t, count);
+  p->held = NSVCD__TAKE(arena, uint32_t, count);
   p->farthest_sample = NSVCD__TAKE(arena, uint32_t, count);
   p->neighbours = NSVCD__TAKE(arena, uint32_t, links);
   p->offsets = NSVCD__TAKE(arena, uint32_t, count + 1);
@@ -166,7 +168,7 @@ static int nsvcd__patches_alloc(nsvcd__patches *p, size_t count, size_t samples,
   }
   if (arena->failed) return 0;
   p->squares = (float *)(void *)p->samples;
-  p->next_sample = (uint32_t *)(void *)(p->squares + samples);
+  p->lists = (uint32_t *)(void *)(p->squares + samples);
   return 1;
 }
 #endif  // NSVCD_NO_ENCODER
