@@ -6304,10 +6304,12 @@ static int nsvcd__simplex_solve(nsvcd__simplex *s) {
 // The distance from a point to a point of the convex hull of vertices. It is not less than the
 // distance from the hull, and at most 0.2 % above it, but for roundings or if it is below `enough`.
 // About ten steps are usual; on x87, whose registers have more digits than memory, it could seem to
-// improve for ever.
-static double nsvcd__hull_distance(nsvcd__points hull, nsvcd__d3 point, double enough) {
+// improve for ever. *from: from the point to one of the hull, where the search begins; becomes the
+// one that was found.
+static double nsvcd__hull_distance(nsvcd__points hull, nsvcd__d3 point, double enough,
+                                   nsvcd__d3 *from) {
   nsvcd__simplex s;
-  s.points[0] = nsvcd__d3_sub(hull.at[hull.count - 1], point);
+  s.points[0] = *from;
   s.weights[0] = 1;
   s.count = 1;
   nsvcd__d3 nearest = s.points[0];
@@ -6331,6 +6333,7 @@ static double nsvcd__hull_distance(nsvcd__points hull, nsvcd__d3 point, double e
     const double squared = nsvcd__d3_dot(nearest, nearest);
     if (!is_solved || squared >= best) break;
     best = squared;
+    *from = nearest;
   }
   return sqrt(best);
 }
@@ -6338,10 +6341,11 @@ static double nsvcd__hull_distance(nsvcd__points hull, nsvcd__d3 point, double e
 // Chooses at most `most` (up to NSVCD__HULL) of the points so that all are near their hull: all of
 // them if they are not more; else always the point farthest from the hull, until that is within
 // `enough`. points: about the ball's centre. bounds: working memory, the last distance found of
-// each point; it remains a bound, for the hull only grows. Writes the numbers of those chosen and
-// the farthest distance; returns how many are chosen.
+// each point; it remains a bound, for the hull only grows. nearest: working memory, where that is.
+// Writes the numbers of those chosen and the farthest distance; returns how many are chosen.
 static size_t nsvcd__choose_hull(nsvcd__points points, size_t most, double enough,
-                                 double *bounds, size_t *chosen, double *farthest) {
+                                 double *bounds, nsvcd__d3 *nearest, size_t *chosen,
+                                 double *farthest) {
   nsvcd__d3 at[NSVCD__HULL];
   nsvcd__points hull = {at, 0};
   size_t next = 0;
@@ -6363,13 +6367,15 @@ static size_t nsvcd__choose_hull(nsvcd__points points, size_t most, double enoug
     at[hull.count] = points.at[next];
     chosen[hull.count++] = next;
     bounds[next] = 0;
+    for (size_t i = 0; hull.count == 1 && i < points.count; i++)
+      nearest[i] = nsvcd__d3_sub(at[0], points.at[i]);
     size_t first = 0;
     for (size_t i = 1; i < points.count; i++) first = bounds[i] > bounds[first] ? i : first;
     *farthest = 0;
     for (size_t k = 0; k < points.count; k++) {
       const size_t i = (first + k) % points.count;
       if (bounds[i] <= *farthest) continue;
-      bounds[i] = nsvcd__min(bounds[i], nsvcd__hull_distance(hull, points.at[i], *farthest));
+      bounds[i] = nsvcd__hull_distance(hull, points.at[i], *farthest, &nearest[i]);
       if (bounds[i] <= *farthest) continue;
       *farthest = bounds[i];
       next = i;
@@ -6397,7 +6403,7 @@ typedef struct nsvcd__sorted {
   uint32_t *stamps, *numbers;
   // (met_count) points of the pass, their positions about a centre, and working memory
   uint32_t *met;
-  nsvcd__d3 *positions;
+  nsvcd__d3 *positions, *nearest;
   double *bounds;
   size_t met_count;
 } nsvcd__sorted;
@@ -6438,6 +6444,7 @@ static int nsvcd__sorted_build(const nsvcd__pieces *pieces, nsvcd__arena *arena,
   }
   all->met = NSVCD__TAKE(arena, uint32_t, most);
   all->positions = NSVCD__TAKE(arena, nsvcd__d3, most);
+  all->nearest = NSVCD__TAKE(arena, nsvcd__d3, most);
   all->bounds = NSVCD__TAKE(arena, double, most);
   return !arena->failed;
 }
@@ -6485,8 +6492,8 @@ static void nsvcd__extremes_of(nsvcd__sorted *all, size_t i, float radius, int8_
   const nsvcd__points points = nsvcd__place_points(all, centre);
   size_t chosen[NSVCD__HULL] = {0};
   double farthest;
-  const size_t count =
-      nsvcd__choose_hull(points, NSVCD__EXTREMES, 0, all->bounds, chosen, &farthest);
+  const size_t count = nsvcd__choose_hull(points, NSVCD__EXTREMES, 0, all->bounds,
+                                          all->nearest, chosen, &farthest);
   for (size_t k = 0; k < 3 * NSVCD__EXTREMES; k++) {
     const size_t extreme = chosen[count ? k / 3 % count : 0];
     const double along = count ? nsvcd__d3_axis(points.at[extreme], k % 3) * inverse : 0;
@@ -6619,8 +6626,8 @@ static void nsvcd__describe_patch(nsvcd__sorted *all, size_t i, nsvcd__surface *
   size_t chosen[NSVCD__HULL];
   double farthest;
   const double enough = NSVCD__HULL_FRACTION * (double)out->ball.radius;
-  const size_t count =
-      nsvcd__choose_hull(about, NSVCD__HULL, enough, all->bounds, chosen, &farthest);
+  const size_t count = nsvcd__choose_hull(about, NSVCD__HULL, enough, all->bounds,
+                                          all->nearest, chosen, &farthest);
   out->margin = nsvcd__float_above(farthest + pieces->margin);
   out->hull_count = (uint8_t)count;
   for (size_t k = 0; k < count; k++) hull[k] = all->met[chosen[k]];
