@@ -4216,7 +4216,7 @@ static uint32_t nsvcd__nearest_centre(const nsvcd__patches *p, uint32_t guess, n
 }
 
 // Gives centre `to` those samples of centre `from` that are nearer to it.
-static void nsvcd__take_samples(nsvcd__patches *p, uint32_t from, uint32_t to) {
+static void nsvcd__give_nearer(nsvcd__patches *p, uint32_t from, uint32_t to) {
   uint32_t *left = p->lists + p->first_sample[from];
   uint32_t *taken = p->lists + p->first_sample[to];
   const nsvcd__f3 centre = p->centres[to];
@@ -4297,7 +4297,7 @@ static void nsvcd__farthest_points(nsvcd__patches *p) {
       // inequality). Most owners are that far away.
       const float square = nsvcd__to_centre2(p, owner, p->centres[count]);
       if (0.25f * square > p->greatest[owner]) continue;
-      nsvcd__take_samples(p, owner, count);
+      nsvcd__give_nearer(p, owner, count);
     }
     end += p->held[count];
   }
