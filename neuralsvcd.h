@@ -6305,7 +6305,7 @@ static int nsvcd__simplex_solve(nsvcd__simplex *s) {
 // distance from the hull, and at most 0.2 % above it, but for roundings or if it is below `enough`.
 // About ten steps are usual; on x87, whose registers have more digits than memory, it could seem to
 // improve for ever. *from: from the point to one of the hull, where the search begins; becomes the
-// one that was found.
+// one that was found, with the roundings of both searches.
 static double nsvcd__hull_distance(nsvcd__points hull, nsvcd__d3 point, double enough,
                                    nsvcd__d3 *from) {
   nsvcd__simplex s;
@@ -6628,7 +6628,9 @@ static void nsvcd__describe_patch(nsvcd__sorted *all, size_t i, nsvcd__surface *
   const double enough = NSVCD__HULL_FRACTION * (double)out->ball.radius;
   const size_t count = nsvcd__choose_hull(about, NSVCD__HULL, enough, all->bounds,
                                           all->nearest, chosen, &farthest);
-  out->margin = nsvcd__float_above(farthest + pieces->margin);
+  // roundings of the searches for the nearest points, which go on from each other
+  const double searches = farthest > 0 ? NSVCD__SURFACE_MARGIN * radius : 0;
+  out->margin = nsvcd__float_above(farthest + pieces->margin + searches);
   out->hull_count = (uint8_t)count;
   for (size_t k = 0; k < count; k++) hull[k] = all->met[chosen[k]];
 }

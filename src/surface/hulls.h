@@ -44,7 +44,7 @@ static int nsvcd__simplex_solve(nsvcd__simplex *s) {
 // distance from the hull, and at most 0.2 % above it, but for roundings or if it is below `enough`.
 // About ten steps are usual; on x87, whose registers have more digits than memory, it could seem to
 // improve for ever. *from: from the point to one of the hull, where the search begins; becomes the
-// one that was found.
+// one that was found, with the roundings of both searches.
 static double nsvcd__hull_distance(nsvcd__points hull, nsvcd__d3 point, double enough,
                                    nsvcd__d3 *from) {
   nsvcd__simplex s;
