@@ -3978,7 +3978,6 @@ NSVCDDEF nsvcd_result nsvcd_stl_load(const char *path, const nsvcd_allocator *al
 #ifndef NSVCD_NO_ENCODER
 // the mean
 #define NSVCD__SAMPLES_PER_PATCH 32
-#define NSVCD__NO_SAMPLE 0xffffffffu
 #define NSVCD__LLOYD_STEPS 3
 // of each centre, to search for the nearest one
 #define NSVCD__NEIGHBOURS 16
@@ -3999,14 +3998,16 @@ typedef struct nsvcd__patch_sum {
 typedef struct nsvcd__patches {
   size_t count;         // N
   size_t sample_count;  // S
-  // triangles and parts of them that the balls were fitted to
-  size_t piece_count;
   // (N) metres: the mean of the patch's samples
   nsvcd__f3 *centres;
+  // (N) metres: the ball about the centre contains the patch's samples
+  float *sample_radii;
+
+  // For latents only.
+  // triangles and parts of them that the balls were fitted to
+  size_t piece_count;
   // (N) metres: the ball about the centre contains the patch's pieces
   float *radii;
-  // (N) metres: the same for its samples
-  float *sample_radii;
   // (N) sums of area times normal; their sum is the mesh's
   nsvcd__f3 *area_vectors;
   // (N + 1) patch i has the samples offsets[i] .. offsets[i + 1] - 1
@@ -4022,9 +4023,13 @@ typedef struct nsvcd__patches {
   uint16_t *owners;
   // (S) squared distance from the owner's centre; in the memory of `samples`
   float *squares;
-  // (S), (N) linked lists of each centre's samples; the first one in the memory of `samples`
-  uint32_t *next_sample, *first_sample;
-  // (N) each centre's farthest sample, and its squared distance
+  // (2 S) lists of each centre's samples, centre by centre, with gaps; in the memory of `samples`
+  uint32_t *lists;
+  // (N) where a centre's list begins, and how long it is
+  uint32_t *first_sample, *held;
+  // 1: neighbours are listed
+  int linked;
+  // (N) each centre's farthest sample, and its squared distance; then working memory
   uint32_t *farthest_sample;
   float *greatest;
   // (N, NEIGHBOURS) the nearest other centres, nearest first, and a quarter of their squared
@@ -4071,7 +4076,7 @@ static double nsvcd__mesh_area(const nsvcd_mesh *mesh) {
 // Draws samples (count) and their unit normals (count), stratified by area: sample k lies in the
 // triangle where the area, summed in triangle order, passes (k + 1/2) / count of the total. Its
 // position there comes from the R2 sequence (Roberts 2018: multiples of 1/g and 1/g^2, g^3 = g +
-// 1). Without any area, triangles have equal weights and normals are 0.
+// 1). Without any area, triangles have equal weights and normals are 0. normals: or NULL.
 static void nsvcd__sample_surface(const nsvcd_mesh *mesh, size_t count, nsvcd__f3 *samples,
                                   nsvcd__f3 *normals) {
   const double all = nsvcd__mesh_area(mesh);
@@ -4099,14 +4104,15 @@ static void nsvcd__sample_surface(const nsvcd_mesh *mesh, size_t count, nsvcd__f
     const nsvcd__d3 ac = nsvcd__d3_sub(triangle.at[2], triangle.at[0]);
     const nsvcd__d3 along = nsvcd__d3_fma(u, ab, triangle.at[0]);
     samples[k] = nsvcd__d3_narrow(nsvcd__d3_fma(v, ac, along));
+    if (!normals) continue;
     normals[k] = nsvcd__f3_of(0, 0, 0);
     if (area > 0)
       normals[k] = nsvcd__d3_narrow(nsvcd__d3_over(nsvcd__area_vector(&triangle), area));
   }
 }
 
-// Makes room for patches and samples. 0 without memory.
-static int nsvcd__patches_alloc(nsvcd__patches *p, size_t count, size_t samples,
+// Makes room for patches and samples. latents: 1: for what these need, too. 0 without memory.
+static int nsvcd__patches_alloc(nsvcd__patches *p, size_t count, size_t samples, int latents,
                                 nsvcd__arena *arena) {
   const size_t links = NSVCD__NEIGHBOURS * count;
   memset(p, 0, sizeof *p);
@@ -4114,23 +4120,26 @@ static int nsvcd__patches_alloc(nsvcd__patches *p, size_t count, size_t samples,
   p->sample_count = samples;
   p->sums = NSVCD__TAKE(arena, nsvcd__patch_sum, count);
   p->centres = NSVCD__TAKE(arena, nsvcd__f3, count);
-  p->radii = NSVCD__TAKE(arena, float, count);
   p->sample_radii = NSVCD__TAKE(arena, float, count);
-  p->area_vectors = NSVCD__TAKE(arena, nsvcd__f3, count);
   p->drawn = NSVCD__TAKE(arena, nsvcd__f3, samples);
-  p->drawn_normals = NSVCD__TAKE(arena, nsvcd__f3, samples);
   p->samples = NSVCD__TAKE(arena, nsvcd__f3, samples);
-  p->normals = NSVCD__TAKE(arena, nsvcd__f3, samples);
   p->quarter_squares = NSVCD__TAKE(arena, float, links);
   p->greatest = NSVCD__TAKE(arena, float, count);
   p->first_sample = NSVCD__TAKE(arena, uint32_t, count);
+  p->held = NSVCD__TAKE(arena, uint32_t, count);
   p->farthest_sample = NSVCD__TAKE(arena, uint32_t, count);
   p->neighbours = NSVCD__TAKE(arena, uint32_t, links);
   p->offsets = NSVCD__TAKE(arena, uint32_t, count + 1);
   p->owners = NSVCD__TAKE(arena, uint16_t, samples);
+  if (latents) {
+    p->radii = NSVCD__TAKE(arena, float, count);
+    p->area_vectors = NSVCD__TAKE(arena, nsvcd__f3, count);
+    p->drawn_normals = NSVCD__TAKE(arena, nsvcd__f3, samples);
+    p->normals = NSVCD__TAKE(arena, nsvcd__f3, samples);
+  }
   if (arena->failed) return 0;
   p->squares = (float *)(void *)p->samples;
-  p->next_sample = (uint32_t *)(void *)(p->squares + samples);
+  p->lists = (uint32_t *)(void *)(p->squares + samples);
   return 1;
 }
 #endif  // NSVCD_NO_ENCODER
@@ -4146,18 +4155,30 @@ static float nsvcd__to_centre2(const nsvcd__patches *p, uint32_t centre, nsvcd__
 }
 
 // Lists the nearest other centres of each centre. A list that is not full ends in infinities.
-static void nsvcd__link_centres(nsvcd__patches *p) {
+// known: 1: there are lists from before the centres moved. What is in one of them is no farther
+// than its farthest, so that few centres are taken in and put out again.
+static void nsvcd__link_centres(nsvcd__patches *p, int known) {
   const size_t last = NSVCD__NEIGHBOURS - 1;
-  for (uint32_t i = 0; i < p->count; i++) {
+  const size_t count = p->count;
+  float *all = p->greatest;
+  for (uint32_t i = 0; i < count; i++) {
+    const nsvcd__f3 own = p->centres[i];
     uint32_t *neighbours = p->neighbours + (size_t)i * NSVCD__NEIGHBOURS;
     float *quarters = p->quarter_squares + (size_t)i * NSVCD__NEIGHBOURS;
+    for (size_t j = 0; j < count; j++) {
+      const nsvcd__f3 offset = nsvcd__f3_sub(p->centres[j], own);
+      all[j] = 0.25f * nsvcd__f3_dot(offset, offset);
+    }
+    all[i] = HUGE_VALF;
+    float most = known ? 0 : HUGE_VALF;
     for (size_t k = 0; k <= last; k++) {
+      if (known && all[neighbours[k]] > most) most = all[neighbours[k]];
       neighbours[k] = i;
       quarters[k] = HUGE_VALF;
     }
-    for (uint32_t j = 0; j < p->count; j++) {
-      const float quarter = 0.25f * nsvcd__to_centre2(p, j, p->centres[i]);
-      if (j == i || quarter >= quarters[last]) continue;
+    for (uint32_t j = 0; j < count; j++) {
+      const float quarter = all[j];
+      if (quarter > most || quarter >= quarters[last]) continue;
       size_t k = last;
       for (; k > 0 && quarters[k - 1] > quarter; k--) {
         quarters[k] = quarters[k - 1];
@@ -4194,64 +4215,97 @@ static uint32_t nsvcd__nearest_centre(const nsvcd__patches *p, uint32_t guess, n
   }
 }
 
-static void nsvcd__forget_samples(nsvcd__patches *p, uint32_t centre) {
-  p->first_sample[centre] = NSVCD__NO_SAMPLE;
-  p->greatest[centre] = -1;
-}
-
-// Adds a sample to its owner's list. square: of the distance between them.
-static inline void nsvcd__give_sample(nsvcd__patches *p, uint32_t s, uint32_t owner,
-                                      float square) {
-  p->owners[s] = (uint16_t)owner;
-  p->squares[s] = square;
-  p->next_sample[s] = p->first_sample[owner];
-  p->first_sample[owner] = s;
-  if (square > p->greatest[owner]) {
+// Gives centre `to` those samples of centre `from` that are nearer to it.
+static void nsvcd__give_nearer(nsvcd__patches *p, uint32_t from, uint32_t to) {
+  uint32_t *left = p->lists + p->first_sample[from];
+  uint32_t *taken = p->lists + p->first_sample[to];
+  const nsvcd__f3 centre = p->centres[to];
+  const uint32_t count = p->held[from];
+  uint32_t kept = 0;
+  uint32_t moved = p->held[to];
+  p->greatest[from] = -1;
+  for (uint32_t k = 0; k < count; k++) {
+    const uint32_t s = left[k];
+    const nsvcd__f3 offset = nsvcd__f3_sub(centre, p->drawn[s]);
+    const float fresh = nsvcd__f3_dot(offset, offset);
+    const float old = p->squares[s];
+    const uint32_t nearer = fresh < old;
+    const float square = nearer ? fresh : old;
+    const uint32_t owner = nearer ? to : from;
+    // no branch, which could not be predicted: the list that it is not added to goes on over it
+    left[kept] = s;
+    taken[moved] = s;
+    kept += !nearer;
+    moved += nearer;
+    p->squares[s] = square;
+    if (!(square > p->greatest[owner])) continue;
     p->greatest[owner] = square;
     p->farthest_sample[owner] = s;
   }
+  p->held[from] = kept;
+  p->held[to] = moved;
+}
+
+// Moves the lists of `count` centres together. Returns where the last one ends.
+static uint32_t nsvcd__close_gaps(nsvcd__patches *p, uint32_t count) {
+  uint32_t end = 0;
+  for (uint32_t i = 0; i < count; i++) {
+    const uint32_t *list = p->lists + p->first_sample[i];
+    memmove(p->lists + end, list, p->held[i] * sizeof *list);
+    p->first_sample[i] = end;
+    end += p->held[i];
+  }
+  return end;
 }
 
 // Farthest point sampling (Gonzalez 1985). The first centre is the sample farthest from the mean.
 // Ends early when every sample is at a centre.
 static void nsvcd__farthest_points(nsvcd__patches *p) {
+  const uint32_t samples = (uint32_t)p->sample_count;
   nsvcd__d3 sum = nsvcd__d3_of(0, 0, 0);
-  for (size_t s = 0; s < p->sample_count; s++)
-    sum = nsvcd__d3_add(sum, nsvcd__d3_widen(p->drawn[s]));
-  p->centres[0] = nsvcd__d3_narrow(nsvcd__d3_over(sum, (double)p->sample_count));
+  for (size_t s = 0; s < samples; s++) sum = nsvcd__d3_add(sum, nsvcd__d3_widen(p->drawn[s]));
+  p->centres[0] = nsvcd__d3_narrow(nsvcd__d3_over(sum, (double)samples));
   for (int pass = 0; pass < 2; pass++) {
     if (pass == 1) p->centres[0] = p->drawn[p->farthest_sample[0]];
-    nsvcd__forget_samples(p, 0);
-    for (uint32_t s = 0; s < p->sample_count; s++)
-      nsvcd__give_sample(p, s, 0, nsvcd__to_centre2(p, 0, p->drawn[s]));
+    p->greatest[0] = -1;
+    for (uint32_t s = 0; s < samples; s++) {
+      p->lists[s] = s;
+      p->squares[s] = nsvcd__to_centre2(p, 0, p->drawn[s]);
+      if (!(p->squares[s] > p->greatest[0])) continue;
+      p->greatest[0] = p->squares[s];
+      p->farthest_sample[0] = s;
+    }
   }
+  p->first_sample[0] = 0;
+  p->held[0] = samples;
 
+  // of the last list
+  uint32_t end = samples;
   uint32_t count = 1;
   for (; count < p->count; count++) {
     uint32_t farthest = 0;
     for (uint32_t i = 1; i < count; i++)
-      farthest = p->greatest[i] > p->greatest[farthest] ? i : farthest;
+      if (p->greatest[i] > p->greatest[farthest]) farthest = i;
     if (!(p->greatest[farthest] > 0)) break;
     p->centres[count] = p->drawn[p->farthest_sample[farthest]];
-    nsvcd__forget_samples(p, count);
+    p->greatest[count] = -1;
+    if (end > samples) end = nsvcd__close_gaps(p, count);
+    p->first_sample[count] = end;
+    p->held[count] = 0;
     for (uint32_t owner = 0; owner < count; owner++) {
       // An owner more than twice as far away as its farthest sample loses none (triangle
       // inequality). Most owners are that far away.
       const float square = nsvcd__to_centre2(p, owner, p->centres[count]);
       if (0.25f * square > p->greatest[owner]) continue;
-      uint32_t s = p->first_sample[owner];
-      nsvcd__forget_samples(p, owner);
-      while (s != NSVCD__NO_SAMPLE) {
-        const uint32_t next = p->next_sample[s];
-        const float old = p->squares[s];
-        const float fresh = nsvcd__to_centre2(p, count, p->drawn[s]);
-        const int nearer = fresh < old;
-        nsvcd__give_sample(p, s, nearer ? count : owner, nearer ? fresh : old);
-        s = next;
-      }
+      nsvcd__give_nearer(p, owner, count);
     }
+    end += p->held[count];
   }
   p->count = count;
+  for (uint32_t i = 0; i < count; i++) {
+    const uint32_t *list = p->lists + p->first_sample[i];
+    for (uint32_t k = 0; k < p->held[i]; k++) p->owners[list[k]] = (uint16_t)i;
+  }
 }
 
 // Moves every centre to the mean of its samples, and drops centres that have none.
@@ -4263,8 +4317,9 @@ static void nsvcd__move_centres(nsvcd__patches *p) {
     sum->weight += 1;
   }
 
+  const size_t before = p->count;
   uint32_t kept = 0;
-  for (size_t i = 0; i < p->count; i++) {
+  for (size_t i = 0; i < before; i++) {
     const nsvcd__patch_sum *sum = &p->sums[i];
     // until samples are grouped: the new number of patch i
     p->offsets[i] = kept;
@@ -4275,7 +4330,8 @@ static void nsvcd__move_centres(nsvcd__patches *p) {
   for (size_t s = 0; s < p->sample_count; s++)
     p->owners[s] = (uint16_t)p->offsets[p->owners[s]];
   p->count = kept;
-  nsvcd__link_centres(p);
+  nsvcd__link_centres(p, p->linked && kept == before);
+  p->linked = 1;
 }
 
 // Extends a patch's reach to a point.
@@ -4290,10 +4346,17 @@ static float nsvcd__radius_above(double squared) {
   return (float)(sqrt(squared) * (1 + 4e-7));
 }
 
-// Writes the samples patch by patch (counting sort), and the sample radii.
+static void nsvcd__measure_samples(nsvcd__patches *p) {
+  memset(p->sums, 0, p->count * sizeof *p->sums);
+  for (size_t s = 0; s < p->sample_count; s++)
+    nsvcd__extend(p, p->owners[s], nsvcd__d3_widen(p->drawn[s]));
+  for (size_t i = 0; i < p->count; i++)
+    p->sample_radii[i] = nsvcd__radius_above(p->sums[i].greatest);
+}
+
+// Writes the samples patch by patch (counting sort).
 static void nsvcd__group_samples(nsvcd__patches *p) {
   memset(p->offsets, 0, (p->count + 1) * sizeof *p->offsets);
-  memset(p->sums, 0, p->count * sizeof *p->sums);
   for (size_t s = 0; s < p->sample_count; s++) p->offsets[p->owners[s] + 1]++;
   for (size_t i = 0; i < p->count; i++) p->offsets[i + 1] += p->offsets[i];
 
@@ -4303,18 +4366,15 @@ static void nsvcd__group_samples(nsvcd__patches *p) {
     const size_t to = p->offsets[owner]++;
     p->samples[to] = p->drawn[s];
     p->normals[to] = p->drawn_normals[s];
-    nsvcd__extend(p, owner, nsvcd__d3_widen(p->drawn[s]));
   }
   memmove(p->offsets + 1, p->offsets, p->count * sizeof *p->offsets);
   p->offsets[0] = 0;
-  for (size_t i = 0; i < p->count; i++)
-    p->sample_radii[i] = nsvcd__radius_above(p->sums[i].greatest);
 }
 #endif  // NSVCD_NO_ENCODER
 
 // -------------------------------------------------------------------------------- patches/covering
-// In: centres, their samples, and the mesh. Out: a ball for each patch; together they contain every
-// triangle.
+// In: centres, their samples, and the mesh. Out: for latents a ball for each patch; together they
+// contain every triangle.
 //
 // Triangles are halved across their longest edges until no edge exceeds `limit`. Each half goes to
 // the patch whose centre is nearest to its centroid, and that patch's ball grows to contain its
@@ -4427,11 +4487,12 @@ static void nsvcd__cover(nsvcd__patches *p, const nsvcd_mesh *mesh) {
 // ---- all of it
 
 // Splits the surface of a checked mesh into at most `count` patches, 1..NSVCD_SMALL_PATCHES: fewer
-// if samples coincide, or a patch loses all of its own. MEMORY.
-static nsvcd_result nsvcd__patches_build(const nsvcd_mesh *mesh, size_t count,
+// if samples coincide, or a patch loses all of its own. latents: 1: finds what only these need.
+// MEMORY.
+static nsvcd_result nsvcd__patches_build(const nsvcd_mesh *mesh, size_t count, int latents,
                                          nsvcd__arena *arena, nsvcd__patches *p) {
-  if (!nsvcd__patches_alloc(p, count, NSVCD__SAMPLES_PER_PATCH * count, arena))
-    return NSVCD_ERROR_MEMORY;
+  const size_t samples = NSVCD__SAMPLES_PER_PATCH * count;
+  if (!nsvcd__patches_alloc(p, count, samples, latents, arena)) return NSVCD_ERROR_MEMORY;
   nsvcd__sample_surface(mesh, p->sample_count, p->drawn, p->drawn_normals);
   nsvcd__farthest_points(p);
   nsvcd__move_centres(p);
@@ -4440,8 +4501,9 @@ static nsvcd_result nsvcd__patches_build(const nsvcd_mesh *mesh, size_t count,
       p->owners[s] = (uint16_t)nsvcd__nearest_centre(p, p->owners[s], p->drawn[s]);
     nsvcd__move_centres(p);
   }
-  nsvcd__group_samples(p);
-  nsvcd__cover(p, mesh);
+  nsvcd__measure_samples(p);
+  if (latents) nsvcd__group_samples(p);
+  if (latents) nsvcd__cover(p, mesh);
   return NSVCD_OK;
 }
 #endif  // NSVCD_NO_ENCODER
@@ -4589,7 +4651,9 @@ typedef struct nsvcd__mending {
   // (vertices) what a welded vertex was joined to, or itself
   uint32_t *joined;
   uint8_t *alive;  // (T) 0: set aside
-  // (3 T) edges, sorted by their ends: edge k of triangle n is 3 n + k
+  // (3 T) where an edge begins: edge k of triangle n is 3 n + k, and ends where the next one begins
+  uint32_t *corners;
+  // (3 T) edges, sorted by their ends
   uint32_t *order;
   // E groups of edges with the same ends: (3 T) the group of each edge; (E + 1) where a group
   // begins in `order`
@@ -4605,11 +4669,6 @@ typedef struct nsvcd__mending {
   uint32_t *spare;
 } nsvcd__mending;
 
-static void nsvcd__mending_face(const nsvcd__mending *m, size_t n, uint32_t *face) {
-  nsvcd__welded_face(m->topo, m->triangles[n], face);
-  for (size_t k = 0; k < 3; k++) face[k] = m->joined[face[k]];
-}
-
 static nsvcd__triangle nsvcd__mending_triangle(const nsvcd__mending *m, size_t n) {
   return nsvcd__triangle_of(m->topo->mesh, m->triangles[n]);
 }
@@ -4620,11 +4679,9 @@ typedef struct nsvcd__edge {
   int rises;
 } nsvcd__edge;
 
-static NSVCD__NOINLINE nsvcd__edge nsvcd__mending_edge(const nsvcd__mending *m, size_t e) {
-  uint32_t face[3];
-  nsvcd__mending_face(m, e / 3, face);
-  const uint32_t from = face[e % 3];
-  const uint32_t to = face[(e + 1) % 3];
+static nsvcd__edge nsvcd__mending_edge(const nsvcd__mending *m, size_t e) {
+  const uint32_t from = m->corners[e];
+  const uint32_t to = m->corners[e % 3 == 2 ? e - 2 : e + 1];
   const nsvcd__edge out = {{from < to ? from : to, from < to ? to : from}, from < to};
   return out;
 }
@@ -4661,10 +4718,11 @@ static void nsvcd__count_degrees(nsvcd__mending *m) {
 static void nsvcd__group_edges(nsvcd__mending *m) {
   uint32_t *seen = m->parts;
   nsvcd__edge last = {{0, 0}, 0};
-  uint32_t face[3];
   m->group_count = 0;
   for (size_t n = 0; n < m->count; n++) {
-    nsvcd__mending_face(m, n, face);
+    uint32_t *face = m->corners + 3 * n;
+    nsvcd__welded_face(m->topo, m->triangles[n], face);
+    for (size_t k = 0; k < 3; k++) face[k] = m->joined[face[k]];
     m->alive[n] = (uint8_t)nsvcd__are_distinct(face);
   }
   for (size_t e = 0; e < 3 * m->count; e++) m->order[e] = (uint32_t)e;
@@ -4684,8 +4742,7 @@ static void nsvcd__group_edges(nsvcd__mending *m) {
     size_t met = 0;
     for (size_t i = m->group_first[g]; i < m->group_first[g + 1]; i++) {
       const size_t n = m->order[i] / 3;
-      nsvcd__mending_face(m, n, face);
-      const uint32_t third = face[(m->order[i] + 2) % 3];
+      const uint32_t third = m->corners[3 * n + (m->order[i] + 2) % 3];
       const nsvcd__edge edge = nsvcd__mending_edge(m, m->order[i]);
       if (!m->alive[n] || third < edge.ends[1]) continue;
       m->alive[n] = m->first[third] == 0;
@@ -4759,9 +4816,9 @@ static double nsvcd__join_vertex(nsvcd__cells *c, uint32_t v) {
 static size_t nsvcd__find_limits(const nsvcd__mending *m, double most, float *limits) {
   size_t count = 0;
   for (size_t e = 0; e < 3 * m->count; e++) {
+    if (m->degrees[m->groups[e]] % 2 == 0) continue;
     const nsvcd__triangle t = nsvcd__mending_triangle(m, e / 3);
     const nsvcd__edge edge = nsvcd__mending_edge(m, e);
-    if (m->degrees[m->groups[e]] % 2 == 0) continue;
     const double length = sqrt(nsvcd__d3_distance2(t.at[e % 3], t.at[(e + 1) % 3]));
     const float own = (float)nsvcd__min(most, NSVCD__JOINED_OF_EDGE * length);
     for (size_t k = 0; k < 2; k++) {
@@ -4810,6 +4867,7 @@ static int nsvcd__mending_build(nsvcd__mending *m, nsvcd__arena *arena) {
   const size_t count = m->count;
   m->joined = NSVCD__TAKE(arena, uint32_t, vertices);
   m->alive = NSVCD__TAKE(arena, uint8_t, count);
+  m->corners = NSVCD__TAKE(arena, uint32_t, 3 * count);
   m->order = NSVCD__TAKE(arena, uint32_t, 3 * count);
   m->groups = NSVCD__TAKE(arena, uint32_t, 3 * count);
   m->group_first = NSVCD__TAKE(arena, uint32_t, 3 * count + 1);
@@ -4997,8 +5055,8 @@ typedef struct nsvcd__hole {
 static void nsvcd__measure_holes(const nsvcd__mending *m, const uint32_t *numbers,
                                  nsvcd__hole *holes, int pass) {
   for (size_t e = 0; e < 3 * m->count; e++) {
-    const nsvcd__triangle t = nsvcd__mending_triangle(m, e / 3);
     if (!nsvcd__is_border(m, e)) continue;
+    const nsvcd__triangle t = nsvcd__mending_triangle(m, e / 3);
     nsvcd__hole *hole = &holes[numbers[nsvcd__mending_edge(m, e).ends[0]] - 1];
     const nsvcd__d3 from = t.at[e % 3];
     const nsvcd__d3 to = t.at[(e + 1) % 3];
@@ -5971,6 +6029,10 @@ static int nsvcd__solve_weights(const nsvcd__d3 *points, size_t count, int ball,
     b[i] = ball ? 0.5 * first[i] : -nsvcd__d3_dot(edges[i], points[0]);
     for (size_t j = 0; j <= i; j++) a[j][i] = nsvcd__d3_dot(edges[i], edges[j]);
   }
+  // most are of two points
+  if (n == 1 && !(first[0] > 0)) return 0;
+  if (n == 1) b[0] /= first[0];
+  if (n == 1) return 1;
   // symmetric and positive definite: the upper half is enough, without pivoting
   for (size_t i = 0; i < n; i++) {
     if (!(a[i][i] > 1e-13 * first[i])) return 0;
@@ -6242,10 +6304,12 @@ static int nsvcd__simplex_solve(nsvcd__simplex *s) {
 // The distance from a point to a point of the convex hull of vertices. It is not less than the
 // distance from the hull, and at most 0.2 % above it, but for roundings or if it is below `enough`.
 // About ten steps are usual; on x87, whose registers have more digits than memory, it could seem to
-// improve for ever.
-static double nsvcd__hull_distance(nsvcd__points hull, nsvcd__d3 point, double enough) {
+// improve for ever. *from: from the point to one of the hull, where the search begins; becomes the
+// one that was found, with the roundings of both searches.
+static double nsvcd__hull_distance(nsvcd__points hull, nsvcd__d3 point, double enough,
+                                   nsvcd__d3 *from) {
   nsvcd__simplex s;
-  s.points[0] = nsvcd__d3_sub(hull.at[hull.count - 1], point);
+  s.points[0] = *from;
   s.weights[0] = 1;
   s.count = 1;
   nsvcd__d3 nearest = s.points[0];
@@ -6269,6 +6333,7 @@ static double nsvcd__hull_distance(nsvcd__points hull, nsvcd__d3 point, double e
     const double squared = nsvcd__d3_dot(nearest, nearest);
     if (!is_solved || squared >= best) break;
     best = squared;
+    *from = nearest;
   }
   return sqrt(best);
 }
@@ -6276,10 +6341,11 @@ static double nsvcd__hull_distance(nsvcd__points hull, nsvcd__d3 point, double e
 // Chooses at most `most` (up to NSVCD__HULL) of the points so that all are near their hull: all of
 // them if they are not more; else always the point farthest from the hull, until that is within
 // `enough`. points: about the ball's centre. bounds: working memory, the last distance found of
-// each point; it remains a bound, for the hull only grows. Writes the numbers of those chosen and
-// the farthest distance; returns how many are chosen.
+// each point; it remains a bound, for the hull only grows. nearest: working memory, where that is.
+// Writes the numbers of those chosen and the farthest distance; returns how many are chosen.
 static size_t nsvcd__choose_hull(nsvcd__points points, size_t most, double enough,
-                                 double *bounds, size_t *chosen, double *farthest) {
+                                 double *bounds, nsvcd__d3 *nearest, size_t *chosen,
+                                 double *farthest) {
   nsvcd__d3 at[NSVCD__HULL];
   nsvcd__points hull = {at, 0};
   size_t next = 0;
@@ -6301,13 +6367,15 @@ static size_t nsvcd__choose_hull(nsvcd__points points, size_t most, double enoug
     at[hull.count] = points.at[next];
     chosen[hull.count++] = next;
     bounds[next] = 0;
+    for (size_t i = 0; hull.count == 1 && i < points.count; i++)
+      nearest[i] = nsvcd__d3_sub(at[0], points.at[i]);
     size_t first = 0;
     for (size_t i = 1; i < points.count; i++) first = bounds[i] > bounds[first] ? i : first;
     *farthest = 0;
     for (size_t k = 0; k < points.count; k++) {
       const size_t i = (first + k) % points.count;
       if (bounds[i] <= *farthest) continue;
-      bounds[i] = nsvcd__min(bounds[i], nsvcd__hull_distance(hull, points.at[i], *farthest));
+      bounds[i] = nsvcd__hull_distance(hull, points.at[i], *farthest, &nearest[i]);
       if (bounds[i] <= *farthest) continue;
       *farthest = bounds[i];
       next = i;
@@ -6335,7 +6403,7 @@ typedef struct nsvcd__sorted {
   uint32_t *stamps, *numbers;
   // (met_count) points of the pass, their positions about a centre, and working memory
   uint32_t *met;
-  nsvcd__d3 *positions;
+  nsvcd__d3 *positions, *nearest;
   double *bounds;
   size_t met_count;
 } nsvcd__sorted;
@@ -6376,6 +6444,7 @@ static int nsvcd__sorted_build(const nsvcd__pieces *pieces, nsvcd__arena *arena,
   }
   all->met = NSVCD__TAKE(arena, uint32_t, most);
   all->positions = NSVCD__TAKE(arena, nsvcd__d3, most);
+  all->nearest = NSVCD__TAKE(arena, nsvcd__d3, most);
   all->bounds = NSVCD__TAKE(arena, double, most);
   return !arena->failed;
 }
@@ -6423,8 +6492,8 @@ static void nsvcd__extremes_of(nsvcd__sorted *all, size_t i, float radius, int8_
   const nsvcd__points points = nsvcd__place_points(all, centre);
   size_t chosen[NSVCD__HULL] = {0};
   double farthest;
-  const size_t count =
-      nsvcd__choose_hull(points, NSVCD__EXTREMES, 0, all->bounds, chosen, &farthest);
+  const size_t count = nsvcd__choose_hull(points, NSVCD__EXTREMES, 0, all->bounds,
+                                          all->nearest, chosen, &farthest);
   for (size_t k = 0; k < 3 * NSVCD__EXTREMES; k++) {
     const size_t extreme = chosen[count ? k / 3 % count : 0];
     const double along = count ? nsvcd__d3_axis(points.at[extreme], k % 3) * inverse : 0;
@@ -6557,9 +6626,11 @@ static void nsvcd__describe_patch(nsvcd__sorted *all, size_t i, nsvcd__surface *
   size_t chosen[NSVCD__HULL];
   double farthest;
   const double enough = NSVCD__HULL_FRACTION * (double)out->ball.radius;
-  const size_t count =
-      nsvcd__choose_hull(about, NSVCD__HULL, enough, all->bounds, chosen, &farthest);
-  out->margin = nsvcd__float_above(farthest + pieces->margin);
+  const size_t count = nsvcd__choose_hull(about, NSVCD__HULL, enough, all->bounds,
+                                          all->nearest, chosen, &farthest);
+  // roundings of the searches for the nearest points, which go on from each other
+  const double searches = farthest > 0 ? NSVCD__SURFACE_MARGIN * radius : 0;
+  out->margin = nsvcd__float_above(farthest + pieces->margin + searches);
   out->hull_count = (uint8_t)count;
   for (size_t k = 0; k < count; k++) hull[k] = all->met[chosen[k]];
 }
@@ -9363,7 +9434,8 @@ static nsvcd_result nsvcd__add_region(nsvcd__draft *d, nsvcd__regions *regions, 
   nsvcd__arena spare = nsvcd__arena_of(d->arena.allocator);
   nsvcd_result result = nsvcd__region_begin(regions, n, &spare, &region);
   if (result == NSVCD_ERROR_EMPTY) return NSVCD_OK;
-  if (!result) result = nsvcd__patches_build(&region.mesh, most, &spare, &patches);
+  if (!result)
+    result = nsvcd__patches_build(&region.mesh, most, d->options->latents, &spare, &patches);
   if (!result && (!nsvcd__pieces_build(&region, &patches, &spare, &pieces) ||
                   !nsvcd__sorted_build(&pieces, &spare, &sorted)))
     result = NSVCD_ERROR_MEMORY;

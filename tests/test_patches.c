@@ -97,7 +97,7 @@ static void mesh_samples_lie_mid_stratum(void) {
 // Samples without a mesh: (n, 3) random points, some of them equal.
 static nsvcd__patches patches_of_points(size_t centres, size_t samples, nsvcd__arena *arena) {
   nsvcd__patches p;
-  CHECK(nsvcd__patches_alloc(&p, centres, samples, arena));
+  CHECK(nsvcd__patches_alloc(&p, centres, samples, 0, arena));
   for (size_t s = 0; s < samples; ++s) {
     p.drawn[s].x = (float)mesh_below(40);
     p.drawn[s].y = (float)mesh_below(40);
@@ -158,7 +158,7 @@ static void mesh_centres_without_samples_are_dropped(void) {
   const nsvcd__f3 origin = {0, 0, 0};
   p.centres[0] = nsvcd__f3_of(1, 0, 0);
   p.centres[1] = nsvcd__f3_of(-1, 0, 0);
-  nsvcd__link_centres(&p);
+  nsvcd__link_centres(&p, 0);
   CHECK_EQ(nsvcd__nearest_centre(&p, 0, origin), 0);
   CHECK_EQ(nsvcd__nearest_centre(&p, 1, origin), 0);
   nsvcd__arena_free(&arena);
@@ -174,7 +174,7 @@ static void mesh_patches_are_round(void) {
     nsvcd__patches p;
     double samples = 0;
     double balls = 0;
-    CHECK_EQ(nsvcd__patches_build(&mesh, counts[n], &arena, &p), NSVCD_OK);
+    CHECK_EQ(nsvcd__patches_build(&mesh, counts[n], 1, &arena, &p), NSVCD_OK);
     for (size_t i = 0; i < p.count; ++i) {
       samples += (double)p.sample_radii[i] / (double)p.count;
       balls += (double)p.radii[i] / (double)p.count;
@@ -207,7 +207,7 @@ static void mesh_patches_cover_the_surface(void) {
       nsvcd_mesh mesh = mesh_kind(kind);
       nsvcd__arena arena = nsvcd__arena_of(NULL);
       nsvcd__patches p;
-      CHECK_EQ(nsvcd__patches_build(&mesh, counts[n], &arena, &p), NSVCD_OK);
+      CHECK_EQ(nsvcd__patches_build(&mesh, counts[n], 1, &arena, &p), NSVCD_OK);
       CHECK(p.count >= 1 && p.count <= counts[n]);
       for (size_t s = 0; s < 6000; ++s) {  // corners, edges and insides of triangles
         double c[3][3];
@@ -241,7 +241,7 @@ static void mesh_patches_are_consistent(void) {
     nsvcd_mesh mesh = mesh_kind(kind);
     nsvcd__arena arena = nsvcd__arena_of(NULL);
     nsvcd__patches p;
-    CHECK_EQ(nsvcd__patches_build(&mesh, 100, &arena, &p), NSVCD_OK);
+    CHECK_EQ(nsvcd__patches_build(&mesh, 100, 1, &arena, &p), NSVCD_OK);
     CHECK_EQ(p.sample_count, 3200);
     CHECK_EQ(p.offsets[0], 0);
     CHECK_EQ(p.offsets[p.count], p.sample_count);
@@ -294,7 +294,7 @@ static void mesh_nearest_centre_is_nearest(void) {
     nsvcd_mesh mesh = mesh_kind(kind);
     nsvcd__arena arena = nsvcd__arena_of(NULL);
     nsvcd__patches p;
-    CHECK_EQ(nsvcd__patches_build(&mesh, kind % 2 ? 300 : 12, &arena, &p), NSVCD_OK);
+    CHECK_EQ(nsvcd__patches_build(&mesh, kind % 2 ? 300 : 12, 1, &arena, &p), NSVCD_OK);
     for (int i = 0; i < 3000; ++i) {
       const float *from = &p.samples[mesh_below(p.sample_count)].x;
       double spread = i % 3 * 3 * (double)p.radii[0];
@@ -324,7 +324,7 @@ static void mesh_patches_edge_cases(void) {
 
   // No triangle has an area: then each is sampled alike, and all of them are covered.
   for (int i = 0; i < 36; i += 3) mesh.indices[i] = mesh.indices[i + 1];
-  CHECK_EQ(nsvcd__patches_build(&mesh, 8, &arena, &p), NSVCD_OK);
+  CHECK_EQ(nsvcd__patches_build(&mesh, 8, 1, &arena, &p), NSVCD_OK);
   for (size_t i = 0; i < 36; ++i) {
     double x[3];
     for (size_t k = 0; k < 3; ++k) x[k] = (double)mesh.positions[3 * mesh.indices[i] + k];
@@ -337,7 +337,7 @@ static void mesh_patches_edge_cases(void) {
   // So small and so far out that all samples fall on a few floats: fewer patches, still covering.
   mesh = mesh_box(0.1, 0.1, 0.1);
   mesh_move(&mesh, 9e5f);
-  CHECK_EQ(nsvcd__patches_build(&mesh, 512, &arena, &p), NSVCD_OK);
+  CHECK_EQ(nsvcd__patches_build(&mesh, 512, 1, &arena, &p), NSVCD_OK);
   CHECK(p.count >= 1 && p.count < 512);
   for (size_t i = 0; i < 8; ++i) {
     double x[3];
@@ -354,7 +354,7 @@ static void mesh_patches_of_slivers(void) {
   nsvcd_mesh mesh = mesh_fan(200000, 100, 0.1);
   nsvcd__arena arena = nsvcd__arena_of(NULL);
   nsvcd__patches p;
-  CHECK_EQ(nsvcd__patches_build(&mesh, 256, &arena, &p), NSVCD_OK);
+  CHECK_EQ(nsvcd__patches_build(&mesh, 256, 1, &arena, &p), NSVCD_OK);
   printf("%d slivers, %d pieces\n", (int)mesh.triangle_count, (int)p.piece_count);
   CHECK_LE(p.piece_count, mesh.triangle_count + NSVCD__PIECES_PER_SAMPLE * p.sample_count);
   mesh_rng = 41;

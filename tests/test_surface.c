@@ -190,7 +190,7 @@ static int reader_open(reader *r, const nsvcd_mesh *mesh, size_t points) {
   if (points <= NSVCD_SMALL_PATCHES) {
     nsvcd__patches patches;
     nsvcd__arena arena = nsvcd__arena_of(NULL);
-    CHECK_EQ(nsvcd__patches_build(mesh, points, &arena, &patches), NSVCD_OK);
+    CHECK_EQ(nsvcd__patches_build(mesh, points, 1, &arena, &patches), NSVCD_OK);
     for (size_t i = 0; i < patches.count; i++)
       r->patch_radius += (double)patches.radii[i] / (double)patches.count;
     nsvcd__arena_free(&arena);

@@ -70,7 +70,8 @@ static nsvcd_result nsvcd__add_region(nsvcd__draft *d, nsvcd__regions *regions, 
   nsvcd__arena spare = nsvcd__arena_of(d->arena.allocator);
   nsvcd_result result = nsvcd__region_begin(regions, n, &spare, &region);
   if (result == NSVCD_ERROR_EMPTY) return NSVCD_OK;
-  if (!result) result = nsvcd__patches_build(&region.mesh, most, &spare, &patches);
+  if (!result)
+    result = nsvcd__patches_build(&region.mesh, most, d->options->latents, &spare, &patches);
   if (!result && (!nsvcd__pieces_build(&region, &patches, &spare, &pieces) ||
                   !nsvcd__sorted_build(&pieces, &spare, &sorted)))
     result = NSVCD_ERROR_MEMORY;

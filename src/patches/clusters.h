@@ -10,18 +10,30 @@ static float nsvcd__to_centre2(const nsvcd__patches *p, uint32_t centre, nsvcd__
 }
 
 // Lists the nearest other centres of each centre. A list that is not full ends in infinities.
-static void nsvcd__link_centres(nsvcd__patches *p) {
+// known: 1: there are lists from before the centres moved. What is in one of them is no farther
+// than its farthest, so that few centres are taken in and put out again.
+static void nsvcd__link_centres(nsvcd__patches *p, int known) {
   const size_t last = NSVCD__NEIGHBOURS - 1;
-  for (uint32_t i = 0; i < p->count; i++) {
+  const size_t count = p->count;
+  float *all = p->greatest;
+  for (uint32_t i = 0; i < count; i++) {
+    const nsvcd__f3 own = p->centres[i];
     uint32_t *neighbours = p->neighbours + (size_t)i * NSVCD__NEIGHBOURS;
     float *quarters = p->quarter_squares + (size_t)i * NSVCD__NEIGHBOURS;
+    for (size_t j = 0; j < count; j++) {
+      const nsvcd__f3 offset = nsvcd__f3_sub(p->centres[j], own);
+      all[j] = 0.25f * nsvcd__f3_dot(offset, offset);
+    }
+    all[i] = HUGE_VALF;
+    float most = known ? 0 : HUGE_VALF;
     for (size_t k = 0; k <= last; k++) {
+      if (known && all[neighbours[k]] > most) most = all[neighbours[k]];
       neighbours[k] = i;
       quarters[k] = HUGE_VALF;
     }
-    for (uint32_t j = 0; j < p->count; j++) {
-      const float quarter = 0.25f * nsvcd__to_centre2(p, j, p->centres[i]);
-      if (j == i || quarter >= quarters[last]) continue;
+    for (uint32_t j = 0; j < count; j++) {
+      const float quarter = all[j];
+      if (quarter > most || quarter >= quarters[last]) continue;
       size_t k = last;
       for (; k > 0 && quarters[k - 1] > quarter; k--) {
         quarters[k] = quarters[k - 1];
@@ -58,64 +70,97 @@ static uint32_t nsvcd__nearest_centre(const nsvcd__patches *p, uint32_t guess, n
   }
 }
 
-static void nsvcd__forget_samples(nsvcd__patches *p, uint32_t centre) {
-  p->first_sample[centre] = NSVCD__NO_SAMPLE;
-  p->greatest[centre] = -1;
-}
-
-// Adds a sample to its owner's list. square: of the distance between them.
-static inline void nsvcd__give_sample(nsvcd__patches *p, uint32_t s, uint32_t owner,
-                                      float square) {
-  p->owners[s] = (uint16_t)owner;
-  p->squares[s] = square;
-  p->next_sample[s] = p->first_sample[owner];
-  p->first_sample[owner] = s;
-  if (square > p->greatest[owner]) {
+// Gives centre `to` those samples of centre `from` that are nearer to it.
+static void nsvcd__give_nearer(nsvcd__patches *p, uint32_t from, uint32_t to) {
+  uint32_t *left = p->lists + p->first_sample[from];
+  uint32_t *taken = p->lists + p->first_sample[to];
+  const nsvcd__f3 centre = p->centres[to];
+  const uint32_t count = p->held[from];
+  uint32_t kept = 0;
+  uint32_t moved = p->held[to];
+  p->greatest[from] = -1;
+  for (uint32_t k = 0; k < count; k++) {
+    const uint32_t s = left[k];
+    const nsvcd__f3 offset = nsvcd__f3_sub(centre, p->drawn[s]);
+    const float fresh = nsvcd__f3_dot(offset, offset);
+    const float old = p->squares[s];
+    const uint32_t nearer = fresh < old;
+    const float square = nearer ? fresh : old;
+    const uint32_t owner = nearer ? to : from;
+    // no branch, which could not be predicted: the list that it is not added to goes on over it
+    left[kept] = s;
+    taken[moved] = s;
+    kept += !nearer;
+    moved += nearer;
+    p->squares[s] = square;
+    if (!(square > p->greatest[owner])) continue;
     p->greatest[owner] = square;
     p->farthest_sample[owner] = s;
   }
+  p->held[from] = kept;
+  p->held[to] = moved;
+}
+
+// Moves the lists of `count` centres together. Returns where the last one ends.
+static uint32_t nsvcd__close_gaps(nsvcd__patches *p, uint32_t count) {
+  uint32_t end = 0;
+  for (uint32_t i = 0; i < count; i++) {
+    const uint32_t *list = p->lists + p->first_sample[i];
+    memmove(p->lists + end, list, p->held[i] * sizeof *list);
+    p->first_sample[i] = end;
+    end += p->held[i];
+  }
+  return end;
 }
 
 // Farthest point sampling (Gonzalez 1985). The first centre is the sample farthest from the mean.
 // Ends early when every sample is at a centre.
 static void nsvcd__farthest_points(nsvcd__patches *p) {
+  const uint32_t samples = (uint32_t)p->sample_count;
   nsvcd__d3 sum = nsvcd__d3_of(0, 0, 0);
-  for (size_t s = 0; s < p->sample_count; s++)
-    sum = nsvcd__d3_add(sum, nsvcd__d3_widen(p->drawn[s]));
-  p->centres[0] = nsvcd__d3_narrow(nsvcd__d3_over(sum, (double)p->sample_count));
+  for (size_t s = 0; s < samples; s++) sum = nsvcd__d3_add(sum, nsvcd__d3_widen(p->drawn[s]));
+  p->centres[0] = nsvcd__d3_narrow(nsvcd__d3_over(sum, (double)samples));
   for (int pass = 0; pass < 2; pass++) {
     if (pass == 1) p->centres[0] = p->drawn[p->farthest_sample[0]];
-    nsvcd__forget_samples(p, 0);
-    for (uint32_t s = 0; s < p->sample_count; s++)
-      nsvcd__give_sample(p, s, 0, nsvcd__to_centre2(p, 0, p->drawn[s]));
+    p->greatest[0] = -1;
+    for (uint32_t s = 0; s < samples; s++) {
+      p->lists[s] = s;
+      p->squares[s] = nsvcd__to_centre2(p, 0, p->drawn[s]);
+      if (!(p->squares[s] > p->greatest[0])) continue;
+      p->greatest[0] = p->squares[s];
+      p->farthest_sample[0] = s;
+    }
   }
+  p->first_sample[0] = 0;
+  p->held[0] = samples;
 
+  // of the last list
+  uint32_t end = samples;
   uint32_t count = 1;
   for (; count < p->count; count++) {
     uint32_t farthest = 0;
     for (uint32_t i = 1; i < count; i++)
-      farthest = p->greatest[i] > p->greatest[farthest] ? i : farthest;
+      if (p->greatest[i] > p->greatest[farthest]) farthest = i;
     if (!(p->greatest[farthest] > 0)) break;
     p->centres[count] = p->drawn[p->farthest_sample[farthest]];
-    nsvcd__forget_samples(p, count);
+    p->greatest[count] = -1;
+    if (end > samples) end = nsvcd__close_gaps(p, count);
+    p->first_sample[count] = end;
+    p->held[count] = 0;
     for (uint32_t owner = 0; owner < count; owner++) {
       // An owner more than twice as far away as its farthest sample loses none (triangle
       // inequality). Most owners are that far away.
       const float square = nsvcd__to_centre2(p, owner, p->centres[count]);
       if (0.25f * square > p->greatest[owner]) continue;
-      uint32_t s = p->first_sample[owner];
-      nsvcd__forget_samples(p, owner);
-      while (s != NSVCD__NO_SAMPLE) {
-        const uint32_t next = p->next_sample[s];
-        const float old = p->squares[s];
-        const float fresh = nsvcd__to_centre2(p, count, p->drawn[s]);
-        const int nearer = fresh < old;
-        nsvcd__give_sample(p, s, nearer ? count : owner, nearer ? fresh : old);
-        s = next;
-      }
+      nsvcd__give_nearer(p, owner, count);
     }
+    end += p->held[count];
   }
   p->count = count;
+  for (uint32_t i = 0; i < count; i++) {
+    const uint32_t *list = p->lists + p->first_sample[i];
+    for (uint32_t k = 0; k < p->held[i]; k++) p->owners[list[k]] = (uint16_t)i;
+  }
 }
 
 // Moves every centre to the mean of its samples, and drops centres that have none.
@@ -127,8 +172,9 @@ static void nsvcd__move_centres(nsvcd__patches *p) {
     sum->weight += 1;
   }
 
+  const size_t before = p->count;
   uint32_t kept = 0;
-  for (size_t i = 0; i < p->count; i++) {
+  for (size_t i = 0; i < before; i++) {
     const nsvcd__patch_sum *sum = &p->sums[i];
     // until samples are grouped: the new number of patch i
     p->offsets[i] = kept;
@@ -139,7 +185,8 @@ static void nsvcd__move_centres(nsvcd__patches *p) {
   for (size_t s = 0; s < p->sample_count; s++)
     p->owners[s] = (uint16_t)p->offsets[p->owners[s]];
   p->count = kept;
-  nsvcd__link_centres(p);
+  nsvcd__link_centres(p, p->linked && kept == before);
+  p->linked = 1;
 }
 
 // Extends a patch's reach to a point.
@@ -154,10 +201,17 @@ static float nsvcd__radius_above(double squared) {
   return (float)(sqrt(squared) * (1 + 4e-7));
 }
 
-// Writes the samples patch by patch (counting sort), and the sample radii.
+static void nsvcd__measure_samples(nsvcd__patches *p) {
+  memset(p->sums, 0, p->count * sizeof *p->sums);
+  for (size_t s = 0; s < p->sample_count; s++)
+    nsvcd__extend(p, p->owners[s], nsvcd__d3_widen(p->drawn[s]));
+  for (size_t i = 0; i < p->count; i++)
+    p->sample_radii[i] = nsvcd__radius_above(p->sums[i].greatest);
+}
+
+// Writes the samples patch by patch (counting sort).
 static void nsvcd__group_samples(nsvcd__patches *p) {
   memset(p->offsets, 0, (p->count + 1) * sizeof *p->offsets);
-  memset(p->sums, 0, p->count * sizeof *p->sums);
   for (size_t s = 0; s < p->sample_count; s++) p->offsets[p->owners[s] + 1]++;
   for (size_t i = 0; i < p->count; i++) p->offsets[i + 1] += p->offsets[i];
 
@@ -167,11 +221,8 @@ static void nsvcd__group_samples(nsvcd__patches *p) {
     const size_t to = p->offsets[owner]++;
     p->samples[to] = p->drawn[s];
     p->normals[to] = p->drawn_normals[s];
-    nsvcd__extend(p, owner, nsvcd__d3_widen(p->drawn[s]));
   }
   memmove(p->offsets + 1, p->offsets, p->count * sizeof *p->offsets);
   p->offsets[0] = 0;
-  for (size_t i = 0; i < p->count; i++)
-    p->sample_radii[i] = nsvcd__radius_above(p->sums[i].greatest);
 }
 #endif  // NSVCD_NO_ENCODER

@@ -1,5 +1,5 @@
-// In: centres, their samples, and the mesh. Out: a ball for each patch; together they contain every
-// triangle.
+// In: centres, their samples, and the mesh. Out: for latents a ball for each patch; together they
+// contain every triangle.
 //
 // Triangles are halved across their longest edges until no edge exceeds `limit`. Each half goes to
 // the patch whose centre is nearest to its centroid, and that patch's ball grows to contain its
@@ -114,11 +114,12 @@ static void nsvcd__cover(nsvcd__patches *p, const nsvcd_mesh *mesh) {
 // ---- all of it
 
 // Splits the surface of a checked mesh into at most `count` patches, 1..NSVCD_SMALL_PATCHES: fewer
-// if samples coincide, or a patch loses all of its own. MEMORY.
-static nsvcd_result nsvcd__patches_build(const nsvcd_mesh *mesh, size_t count,
+// if samples coincide, or a patch loses all of its own. latents: 1: finds what only these need.
+// MEMORY.
+static nsvcd_result nsvcd__patches_build(const nsvcd_mesh *mesh, size_t count, int latents,
                                          nsvcd__arena *arena, nsvcd__patches *p) {
-  if (!nsvcd__patches_alloc(p, count, NSVCD__SAMPLES_PER_PATCH * count, arena))
-    return NSVCD_ERROR_MEMORY;
+  const size_t samples = NSVCD__SAMPLES_PER_PATCH * count;
+  if (!nsvcd__patches_alloc(p, count, samples, latents, arena)) return NSVCD_ERROR_MEMORY;
   nsvcd__sample_surface(mesh, p->sample_count, p->drawn, p->drawn_normals);
   nsvcd__farthest_points(p);
   nsvcd__move_centres(p);
@@ -127,8 +128,9 @@ static nsvcd_result nsvcd__patches_build(const nsvcd_mesh *mesh, size_t count,
       p->owners[s] = (uint16_t)nsvcd__nearest_centre(p, p->owners[s], p->drawn[s]);
     nsvcd__move_centres(p);
   }
-  nsvcd__group_samples(p);
-  nsvcd__cover(p, mesh);
+  nsvcd__measure_samples(p);
+  if (latents) nsvcd__group_samples(p);
+  if (latents) nsvcd__cover(p, mesh);
   return NSVCD_OK;
 }
 #endif  // NSVCD_NO_ENCODER

@@ -22,7 +22,9 @@ typedef struct nsvcd__mending {
   // (vertices) what a welded vertex was joined to, or itself
   uint32_t *joined;
   uint8_t *alive;  // (T) 0: set aside
-  // (3 T) edges, sorted by their ends: edge k of triangle n is 3 n + k
+  // (3 T) where an edge begins: edge k of triangle n is 3 n + k, and ends where the next one begins
+  uint32_t *corners;
+  // (3 T) edges, sorted by their ends
   uint32_t *order;
   // E groups of edges with the same ends: (3 T) the group of each edge; (E + 1) where a group
   // begins in `order`
@@ -38,11 +40,6 @@ typedef struct nsvcd__mending {
   uint32_t *spare;
 } nsvcd__mending;
 
-static void nsvcd__mending_face(const nsvcd__mending *m, size_t n, uint32_t *face) {
-  nsvcd__welded_face(m->topo, m->triangles[n], face);
-  for (size_t k = 0; k < 3; k++) face[k] = m->joined[face[k]];
-}
-
 static nsvcd__triangle nsvcd__mending_triangle(const nsvcd__mending *m, size_t n) {
   return nsvcd__triangle_of(m->topo->mesh, m->triangles[n]);
 }
@@ -53,11 +50,9 @@ typedef struct nsvcd__edge {
   int rises;
 } nsvcd__edge;
 
-static NSVCD__NOINLINE nsvcd__edge nsvcd__mending_edge(const nsvcd__mending *m, size_t e) {
-  uint32_t face[3];
-  nsvcd__mending_face(m, e / 3, face);
-  const uint32_t from = face[e % 3];
-  const uint32_t to = face[(e + 1) % 3];
+static nsvcd__edge nsvcd__mending_edge(const nsvcd__mending *m, size_t e) {
+  const uint32_t from = m->corners[e];
+  const uint32_t to = m->corners[e % 3 == 2 ? e - 2 : e + 1];
   const nsvcd__edge out = {{from < to ? from : to, from < to ? to : from}, from < to};
   return out;
 }
@@ -94,10 +89,11 @@ static void nsvcd__count_degrees(nsvcd__mending *m) {
 static void nsvcd__group_edges(nsvcd__mending *m) {
   uint32_t *seen = m->parts;
   nsvcd__edge last = {{0, 0}, 0};
-  uint32_t face[3];
   m->group_count = 0;
   for (size_t n = 0; n < m->count; n++) {
-    nsvcd__mending_face(m, n, face);
+    uint32_t *face = m->corners + 3 * n;
+    nsvcd__welded_face(m->topo, m->triangles[n], face);
+    for (size_t k = 0; k < 3; k++) face[k] = m->joined[face[k]];
     m->alive[n] = (uint8_t)nsvcd__are_distinct(face);
   }
   for (size_t e = 0; e < 3 * m->count; e++) m->order[e] = (uint32_t)e;
@@ -117,8 +113,7 @@ static void nsvcd__group_edges(nsvcd__mending *m) {
     size_t met = 0;
     for (size_t i = m->group_first[g]; i < m->group_first[g + 1]; i++) {
       const size_t n = m->order[i] / 3;
-      nsvcd__mending_face(m, n, face);
-      const uint32_t third = face[(m->order[i] + 2) % 3];
+      const uint32_t third = m->corners[3 * n + (m->order[i] + 2) % 3];
       const nsvcd__edge edge = nsvcd__mending_edge(m, m->order[i]);
       if (!m->alive[n] || third < edge.ends[1]) continue;
       m->alive[n] = m->first[third] == 0;
@@ -192,9 +187,9 @@ static double nsvcd__join_vertex(nsvcd__cells *c, uint32_t v) {
 static size_t nsvcd__find_limits(const nsvcd__mending *m, double most, float *limits) {
   size_t count = 0;
   for (size_t e = 0; e < 3 * m->count; e++) {
+    if (m->degrees[m->groups[e]] % 2 == 0) continue;
     const nsvcd__triangle t = nsvcd__mending_triangle(m, e / 3);
     const nsvcd__edge edge = nsvcd__mending_edge(m, e);
-    if (m->degrees[m->groups[e]] % 2 == 0) continue;
     const double length = sqrt(nsvcd__d3_distance2(t.at[e % 3], t.at[(e + 1) % 3]));
     const float own = (float)nsvcd__min(most, NSVCD__JOINED_OF_EDGE * length);
     for (size_t k = 0; k < 2; k++) {
@@ -243,6 +238,7 @@ static int nsvcd__mending_build(nsvcd__mending *m, nsvcd__arena *arena) {
   const size_t count = m->count;
   m->joined = NSVCD__TAKE(arena, uint32_t, vertices);
   m->alive = NSVCD__TAKE(arena, uint8_t, count);
+  m->corners = NSVCD__TAKE(arena, uint32_t, 3 * count);
   m->order = NSVCD__TAKE(arena, uint32_t, 3 * count);
   m->groups = NSVCD__TAKE(arena, uint32_t, 3 * count);
   m->group_first = NSVCD__TAKE(arena, uint32_t, 3 * count + 1);

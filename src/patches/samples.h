@@ -7,7 +7,6 @@
 #ifndef NSVCD_NO_ENCODER
 // the mean
 #define NSVCD__SAMPLES_PER_PATCH 32
-#define NSVCD__NO_SAMPLE 0xffffffffu
 #define NSVCD__LLOYD_STEPS 3
 // of each centre, to search for the nearest one
 #define NSVCD__NEIGHBOURS 16
@@ -28,14 +27,16 @@ typedef struct nsvcd__patch_sum {
 typedef struct nsvcd__patches {
   size_t count;         // N
   size_t sample_count;  // S
-  // triangles and parts of them that the balls were fitted to
-  size_t piece_count;
   // (N) metres: the mean of the patch's samples
   nsvcd__f3 *centres;
+  // (N) metres: the ball about the centre contains the patch's samples
+  float *sample_radii;
+
+  // For latents only.
+  // triangles and parts of them that the balls were fitted to
+  size_t piece_count;
   // (N) metres: the ball about the centre contains the patch's pieces
   float *radii;
-  // (N) metres: the same for its samples
-  float *sample_radii;
   // (N) sums of area times normal; their sum is the mesh's
   nsvcd__f3 *area_vectors;
   // (N + 1) patch i has the samples offsets[i] .. offsets[i + 1] - 1
@@ -51,9 +52,13 @@ typedef struct nsvcd__patches {
   uint16_t *owners;
   // (S) squared distance from the owner's centre; in the memory of `samples`
   float *squares;
-  // (S), (N) linked lists of each centre's samples; the first one in the memory of `samples`
-  uint32_t *next_sample, *first_sample;
-  // (N) each centre's farthest sample, and its squared distance
+  // (2 S) lists of each centre's samples, centre by centre, with gaps; in the memory of `samples`
+  uint32_t *lists;
+  // (N) where a centre's list begins, and how long it is
+  uint32_t *first_sample, *held;
+  // 1: neighbours are listed
+  int linked;
+  // (N) each centre's farthest sample, and its squared distance; then working memory
   uint32_t *farthest_sample;
   float *greatest;
   // (N, NEIGHBOURS) the nearest other centres, nearest first, and a quarter of their squared
@@ -100,7 +105,7 @@ static double nsvcd__mesh_area(const nsvcd_mesh *mesh) {
 // Draws samples (count) and their unit normals (count), stratified by area: sample k lies in the
 // triangle where the area, summed in triangle order, passes (k + 1/2) / count of the total. Its
 // position there comes from the R2 sequence (Roberts 2018: multiples of 1/g and 1/g^2, g^3 = g +
-// 1). Without any area, triangles have equal weights and normals are 0.
+// 1). Without any area, triangles have equal weights and normals are 0. normals: or NULL.
 static void nsvcd__sample_surface(const nsvcd_mesh *mesh, size_t count, nsvcd__f3 *samples,
                                   nsvcd__f3 *normals) {
   const double all = nsvcd__mesh_area(mesh);
@@ -128,14 +133,15 @@ static void nsvcd__sample_surface(const nsvcd_mesh *mesh, size_t count, nsvcd__f
     const nsvcd__d3 ac = nsvcd__d3_sub(triangle.at[2], triangle.at[0]);
     const nsvcd__d3 along = nsvcd__d3_fma(u, ab, triangle.at[0]);
     samples[k] = nsvcd__d3_narrow(nsvcd__d3_fma(v, ac, along));
+    if (!normals) continue;
     normals[k] = nsvcd__f3_of(0, 0, 0);
     if (area > 0)
       normals[k] = nsvcd__d3_narrow(nsvcd__d3_over(nsvcd__area_vector(&triangle), area));
   }
 }
 
-// Makes room for patches and samples. 0 without memory.
-static int nsvcd__patches_alloc(nsvcd__patches *p, size_t count, size_t samples,
+// Makes room for patches and samples. latents: 1: for what these need, too. 0 without memory.
+static int nsvcd__patches_alloc(nsvcd__patches *p, size_t count, size_t samples, int latents,
                                 nsvcd__arena *arena) {
   const size_t links = NSVCD__NEIGHBOURS * count;
   memset(p, 0, sizeof *p);
@@ -143,23 +149,26 @@ static int nsvcd__patches_alloc(nsvcd__patches *p, size_t count, size_t samples,
   p->sample_count = samples;
   p->sums = NSVCD__TAKE(arena, nsvcd__patch_sum, count);
   p->centres = NSVCD__TAKE(arena, nsvcd__f3, count);
-  p->radii = NSVCD__TAKE(arena, float, count);
   p->sample_radii = NSVCD__TAKE(arena, float, count);
-  p->area_vectors = NSVCD__TAKE(arena, nsvcd__f3, count);
   p->drawn = NSVCD__TAKE(arena, nsvcd__f3, samples);
-  p->drawn_normals = NSVCD__TAKE(arena, nsvcd__f3, samples);
   p->samples = NSVCD__TAKE(arena, nsvcd__f3, samples);
-  p->normals = NSVCD__TAKE(arena, nsvcd__f3, samples);
   p->quarter_squares = NSVCD__TAKE(arena, float, links);
   p->greatest = NSVCD__TAKE(arena, float, count);
   p->first_sample = NSVCD__TAKE(arena, uint32_t, count);
+  p->held = NSVCD__TAKE(arena, uint32_t, count);
   p->farthest_sample = NSVCD__TAKE(arena, uint32_t, count);
   p->neighbours = NSVCD__TAKE(arena, uint32_t, links);
   p->offsets = NSVCD__TAKE(arena, uint32_t, count + 1);
   p->owners = NSVCD__TAKE(arena, uint16_t, samples);
+  if (latents) {
+    p->radii = NSVCD__TAKE(arena, float, count);
+    p->area_vectors = NSVCD__TAKE(arena, nsvcd__f3, count);
+    p->drawn_normals = NSVCD__TAKE(arena, nsvcd__f3, samples);
+    p->normals = NSVCD__TAKE(arena, nsvcd__f3, samples);
+  }
   if (arena->failed) return 0;
   p->squares = (float *)(void *)p->samples;
-  p->next_sample = (uint32_t *)(void *)(p->squares + samples);
+  p->lists = (uint32_t *)(void *)(p->squares + samples);
   return 1;
 }
 #endif  // NSVCD_NO_ENCODER

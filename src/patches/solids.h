@@ -168,8 +168,8 @@ typedef struct nsvcd__hole {
 static void nsvcd__measure_holes(const nsvcd__mending *m, const uint32_t *numbers,
                                  nsvcd__hole *holes, int pass) {
   for (size_t e = 0; e < 3 * m->count; e++) {
-    const nsvcd__triangle t = nsvcd__mending_triangle(m, e / 3);
     if (!nsvcd__is_border(m, e)) continue;
+    const nsvcd__triangle t = nsvcd__mending_triangle(m, e / 3);
     nsvcd__hole *hole = &holes[numbers[nsvcd__mending_edge(m, e).ends[0]] - 1];
     const nsvcd__d3 from = t.at[e % 3];
     const nsvcd__d3 to = t.at[(e + 1) % 3];

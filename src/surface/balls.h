@@ -28,6 +28,10 @@ static int nsvcd__solve_weights(const nsvcd__d3 *points, size_t count, int ball,
     b[i] = ball ? 0.5 * first[i] : -nsvcd__d3_dot(edges[i], points[0]);
     for (size_t j = 0; j <= i; j++) a[j][i] = nsvcd__d3_dot(edges[i], edges[j]);
   }
+  // most are of two points
+  if (n == 1 && !(first[0] > 0)) return 0;
+  if (n == 1) b[0] /= first[0];
+  if (n == 1) return 1;
   // symmetric and positive definite: the upper half is enough, without pivoting
   for (size_t i = 0; i < n; i++) {
     if (!(a[i][i] > 1e-13 * first[i])) return 0;

@@ -43,10 +43,12 @@ static int nsvcd__simplex_solve(nsvcd__simplex *s) {
 // The distance from a point to a point of the convex hull of vertices. It is not less than the
 // distance from the hull, and at most 0.2 % above it, but for roundings or if it is below `enough`.
 // About ten steps are usual; on x87, whose registers have more digits than memory, it could seem to
-// improve for ever.
-static double nsvcd__hull_distance(nsvcd__points hull, nsvcd__d3 point, double enough) {
+// improve for ever. *from: from the point to one of the hull, where the search begins; becomes the
+// one that was found, with the roundings of both searches.
+static double nsvcd__hull_distance(nsvcd__points hull, nsvcd__d3 point, double enough,
+                                   nsvcd__d3 *from) {
   nsvcd__simplex s;
-  s.points[0] = nsvcd__d3_sub(hull.at[hull.count - 1], point);
+  s.points[0] = *from;
   s.weights[0] = 1;
   s.count = 1;
   nsvcd__d3 nearest = s.points[0];
@@ -70,6 +72,7 @@ static double nsvcd__hull_distance(nsvcd__points hull, nsvcd__d3 point, double e
     const double squared = nsvcd__d3_dot(nearest, nearest);
     if (!is_solved || squared >= best) break;
     best = squared;
+    *from = nearest;
   }
   return sqrt(best);
 }
@@ -77,10 +80,11 @@ static double nsvcd__hull_distance(nsvcd__points hull, nsvcd__d3 point, double e
 // Chooses at most `most` (up to NSVCD__HULL) of the points so that all are near their hull: all of
 // them if they are not more; else always the point farthest from the hull, until that is within
 // `enough`. points: about the ball's centre. bounds: working memory, the last distance found of
-// each point; it remains a bound, for the hull only grows. Writes the numbers of those chosen and
-// the farthest distance; returns how many are chosen.
+// each point; it remains a bound, for the hull only grows. nearest: working memory, where that is.
+// Writes the numbers of those chosen and the farthest distance; returns how many are chosen.
 static size_t nsvcd__choose_hull(nsvcd__points points, size_t most, double enough,
-                                 double *bounds, size_t *chosen, double *farthest) {
+                                 double *bounds, nsvcd__d3 *nearest, size_t *chosen,
+                                 double *farthest) {
   nsvcd__d3 at[NSVCD__HULL];
   nsvcd__points hull = {at, 0};
   size_t next = 0;
@@ -102,13 +106,15 @@ static size_t nsvcd__choose_hull(nsvcd__points points, size_t most, double enoug
     at[hull.count] = points.at[next];
     chosen[hull.count++] = next;
     bounds[next] = 0;
+    for (size_t i = 0; hull.count == 1 && i < points.count; i++)
+      nearest[i] = nsvcd__d3_sub(at[0], points.at[i]);
     size_t first = 0;
     for (size_t i = 1; i < points.count; i++) first = bounds[i] > bounds[first] ? i : first;
     *farthest = 0;
     for (size_t k = 0; k < points.count; k++) {
       const size_t i = (first + k) % points.count;
       if (bounds[i] <= *farthest) continue;
-      bounds[i] = nsvcd__min(bounds[i], nsvcd__hull_distance(hull, points.at[i], *farthest));
+      bounds[i] = nsvcd__hull_distance(hull, points.at[i], *farthest, &nearest[i]);
       if (bounds[i] <= *farthest) continue;
       *farthest = bounds[i];
       next = i;

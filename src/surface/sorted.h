@@ -18,7 +18,7 @@ typedef struct nsvcd__sorted {
   uint32_t *stamps, *numbers;
   // (met_count) points of the pass, their positions about a centre, and working memory
   uint32_t *met;
-  nsvcd__d3 *positions;
+  nsvcd__d3 *positions, *nearest;
   double *bounds;
   size_t met_count;
 } nsvcd__sorted;
@@ -59,6 +59,7 @@ static int nsvcd__sorted_build(const nsvcd__pieces *pieces, nsvcd__arena *arena,
   }
   all->met = NSVCD__TAKE(arena, uint32_t, most);
   all->positions = NSVCD__TAKE(arena, nsvcd__d3, most);
+  all->nearest = NSVCD__TAKE(arena, nsvcd__d3, most);
   all->bounds = NSVCD__TAKE(arena, double, most);
   return !arena->failed;
 }
@@ -106,8 +107,8 @@ static void nsvcd__extremes_of(nsvcd__sorted *all, size_t i, float radius, int8_
   const nsvcd__points points = nsvcd__place_points(all, centre);
   size_t chosen[NSVCD__HULL] = {0};
   double farthest;
-  const size_t count =
-      nsvcd__choose_hull(points, NSVCD__EXTREMES, 0, all->bounds, chosen, &farthest);
+  const size_t count = nsvcd__choose_hull(points, NSVCD__EXTREMES, 0, all->bounds,
+                                          all->nearest, chosen, &farthest);
   for (size_t k = 0; k < 3 * NSVCD__EXTREMES; k++) {
     const size_t extreme = chosen[count ? k / 3 % count : 0];
     const double along = count ? nsvcd__d3_axis(points.at[extreme], k % 3) * inverse : 0;

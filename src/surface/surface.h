@@ -125,9 +125,11 @@ static void nsvcd__describe_patch(nsvcd__sorted *all, size_t i, nsvcd__surface *
   size_t chosen[NSVCD__HULL];
   double farthest;
   const double enough = NSVCD__HULL_FRACTION * (double)out->ball.radius;
-  const size_t count =
-      nsvcd__choose_hull(about, NSVCD__HULL, enough, all->bounds, chosen, &farthest);
-  out->margin = nsvcd__float_above(farthest + pieces->margin);
+  const size_t count = nsvcd__choose_hull(about, NSVCD__HULL, enough, all->bounds,
+                                          all->nearest, chosen, &farthest);
+  // roundings of the searches for the nearest points, which go on from each other
+  const double searches = farthest > 0 ? NSVCD__SURFACE_MARGIN * radius : 0;
+  out->margin = nsvcd__float_above(farthest + pieces->margin + searches);
   out->hull_count = (uint8_t)count;
   for (size_t k = 0; k < count; k++) hull[k] = all->met[chosen[k]];
 }

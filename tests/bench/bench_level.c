@@ -6,6 +6,8 @@
 //                                                     patches of 0.15 m
 //   build/bench_level TRIANGLES MOTIONS POINTS network    the same by the network, whose errors are
 //                                                         counted
+//   build/bench_level encode [RUNS]    microseconds a triangle to encode levels, chunks cut out of
+//                                      one, and props: median and least of RUNS
 //
 // Sets: `near`, at random places and in all directions, half of them hits or so; `slide`, along the
 // ground at some tenths of a millimetre to some millimetres; `dash`, ten frames' way in one. Exit
@@ -112,7 +114,83 @@ static size_t run_set(int set, size_t motions, const level_solid *bodies, const 
   return wrong;
 }
 
+// ---- encoding
+
+#define CHUNK_LEVEL 139080  // triangles of the level that chunks are cut out of
+
+// Encodes a mesh. patches: 0: the default. The last column tells one body from another.
+static void print_encoding(const char *name, const nsvcd_mesh *mesh, size_t patches, size_t runs) {
+  nsvcd_encode_options options;
+  double *times = (double *)malloc(runs * sizeof *times);
+  const double per = 1 / (double)mesh->triangle_count;
+  nsvcd_body_facts facts = nsvcd_body_describe(NULL);
+  uint32_t hash = 2166136261u;
+  if (!times) level_fail("no memory");
+  memset(&options, 0, sizeof options);
+  options.patches = patches;
+  for (size_t run = 0; run < runs; run++) {
+    const nsvcd_body *body;
+    const double start = seconds();
+    if (nsvcd_encode(mesh, &options, NULL, NULL, 0, &body)) level_fail("a mesh was refused");
+    times[run] = 1e6 * per * (seconds() - start);
+    facts = nsvcd_body_describe(body);
+    for (size_t i = 0; run == 0 && i < facts.size; i++)
+      hash = (hash ^ ((const unsigned char *)body)[i]) * 16777619u;
+    nsvcd_body_free(body, NULL);
+  }
+  meter_sort(times, runs);
+  printf(
+      "%-8s %7zu triangles %6zu patches  median %6.2f, least %6.2f us a triangle  %6.2f ms  %6.1f "
+      "bytes  %08x\n",
+      name, mesh->triangle_count, facts.patches, times[runs / 2], times[0],
+      1e-3 * times[runs / 2] / per, (double)facts.size * per, (unsigned)hash);
+  free(times);
+}
+
+static void print_shape(const char *name, shapes_mesh *shape, size_t runs) {
+  nsvcd_mesh mesh = mesh_of(shape);
+  print_encoding(name, &mesh, 0, runs);
+  nsvcd_mesh_free(&mesh, NULL);
+  shapes_free(shape);
+}
+
+static int print_encodings(size_t runs) {
+  static const size_t levels[4] = {1000, 5000, 20000, CHUNK_LEVEL};
+  // metres, of chunks
+  static const double sides[3] = {1.5, 4, 8};
+  shapes_mesh shape;
+  memset(&shape, 0, sizeof shape);
+  for (int k = 0; k < 4; k++) {
+    level_make(&shape, SIDE, levels[k], 1);
+    print_shape("level", &shape, runs);
+  }
+  level_make(&shape, SIDE, CHUNK_LEVEL, 1);
+  nsvcd_mesh level = mesh_of(&shape);
+  shapes_free(&shape);
+  for (int k = 0; k < 3; k++) {
+    const float half = (float)(0.5 * sides[k]);
+    const float low[3] = {1 - half, 2 - half, -2};
+    const float high[3] = {1 + half, 2 + half, 4};
+    nsvcd_mesh part;
+    if (nsvcd_mesh_cut(&level, low, high, NULL, &part)) level_fail("a chunk was refused");
+    print_encoding("chunk", &part, 0, runs);
+    // as many patches as a level has
+    print_encoding("chunk", &part, part.triangle_count / NSVCD_LEVEL_TRIANGLES, runs);
+    nsvcd_mesh_free(&part, NULL);
+  }
+  nsvcd_mesh_free(&level, NULL);
+  shapes_gear(&shape, 0.14, 0.03, 0.06, 20);
+  print_shape("gear", &shape, 20 * runs);
+  shapes_torus(&shape, 0.12, 0.04, 32, 16);
+  print_shape("torus", &shape, 20 * runs);
+  shapes_chair(&shape, 0.24, 0.5, 0.03);
+  print_shape("chair", &shape, 20 * runs);
+  return 0;
+}
+
 int main(int argc, char **argv) {
+  if (argc > 1 && strcmp(argv[1], "encode") == 0)
+    return print_encodings(argc > 2 ? strtoul(argv[2], NULL, 10) : 21);
   const size_t triangles = argc > 1 ? strtoul(argv[1], NULL, 10) : 200000;
   const size_t motions = argc > 2 ? strtoul(argv[2], NULL, 10) : 200;
   const int network = argc > 4 && strcmp(argv[4], "network") == 0;
