@@ -212,7 +212,8 @@ extern "C" {
 #include "body/geometry.h"    // what the proof reads: slabs, hulls, triangles
 #include "body/voxels.h"      // a mesh as a grid of cells
 #include "body/ball_cover.h"  // a few balls that cover a mesh, for looks
-#include "body/trust.h"       // is a blob sound? load it, scale it, describe it
+#include "body/trust.h"       // is a blob sound? load it, describe it
+#include "body/scale.h"       // a body, scaled
 #include "body/write.h"       // a surface -> what the proof reads
 #include "body/encode.h"      // nsvcd_encode
 #include "body/shapes.h"      // spheres, capsules, boxes, clouds

@@ -143,7 +143,7 @@ round: points on the skeleton|fmin((double)p->fixed.counts->convex_radius, found
 round: gaps of the skeletons|(float)(fmax(found->distance - p->given.radius, 0) * unit);|(float)(found->distance * unit);
 round: a point on either|    c->point[k] += gap * c->normal[k];|
 round: a run short of its last|for (size_t k = 0; k < count; k++) {\n    if (k == end)|for (size_t k = 0; k + 1 < count; k++) {\n    if (k == end)
-round: not scaled|*radius *= scale;|
+round: not scaled|*radius *= (float)by->most;|
 two patches by a plane of any triangle|if (height > highest) top = b;|if (height > highest) top = fixed_first;
 two patches, but the last triangle|for (size_t a = moving_first; a < moving_end; a++) { const nsvcd__triangle_pair pair = nsvcd__pair_of(p, i, j, a, top);|for (size_t a = moving_first; a + 1 < moving_end; a++) { const nsvcd__triangle_pair pair = nsvcd__pair_of(p, i, j, a, top);
 asks: a contact before the start|nsvcd__max(nsvcd__min(clear_until, found->tick), 0);|nsvcd__min(clear_until, found->tick);
@@ -462,9 +462,14 @@ shapes: heights in one number|return (double)(upper + lower / half) * (double)ha
 shapes: what is in the plane is seen|if (nsvcd__facet_height(h, other, point) > 0) {|if (nsvcd__facet_height(h, other, point) >= 0) {
 shapes: a grid of 2^20|#define NSVCD__GRID_BITS 30|#define NSVCD__GRID_BITS 20
 shapes: points of the last facet alone|if (!(nsvcd__facet_height(h, h->facets + at, q) > 0)) {|if (0) {
-shapes: a fan that is not closed|h->facets[after].beyond[2] = at;|
 shapes: points that the first facet saw|if (at == NSVCD__NO_INDEX) return;|if (at == NSVCD__NO_INDEX \|\| list == at) return;
 shapes: points between corners stay|if (h->fan[i] < 3) continue;|if (h->fan[i] < 1) continue;
+shapes: stretched as the longest axis|f.positions[i] *= (float)by->axes[i % 3];|f.positions[i] *= (float)by->most;
+shapes: points that are not stretched|const double whole = floor((double)*at * (by->axes[n / count] / by->most) + 0.5);|const double whole = (double)*at;
+shapes: normals stretched as points are|nsvcd__d3_of((double)slab.normal.x / by->axes[0], (double)slab.normal.y / by->axes[1],|nsvcd__d3_of((double)slab.normal.x * by->axes[0], (double)slab.normal.y * by->axes[1],
+shapes: slabs without the margin|const double more = margin + 1e-6 * reach;|const double more = -margin;
+shapes: half a patch's sphere|const double reach = (1 + 1e-6) * (sqrt(farthest) + margin);|const double reach = 0.5 * (sqrt(farthest) + margin);
+shapes: a mirror that turns nothing|if (by->mirror) nsvcd__turn_triangles(\&f);|
 shapes: the other diagonal|indices[3 * count] = corners[0];\n        indices[3 * count + 1] = corners[k - 1];|indices[3 * count] = corners[found - 1];\n        indices[3 * count + 1] = corners[k - 2];
 shapes: holes are samples at 0|return nsvcd__magnitude(height) > 0x7f800000u;|return nsvcd__magnitude(height) > 0xff800000u;
 route_looks: the world turned|return link ? nsvcd__look_axes(c->links[link - 1].axis) : world;|(void)world; return nsvcd__look_axes(link ? c->links[link - 1].axis : nsvcd__d3_of(0, 0, 1));

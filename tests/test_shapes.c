@@ -8,6 +8,7 @@
 
 #include "../examples/scenery/shapes.h"
 #include "../examples/scenery/oracle.h"
+#include "mesh_of.h"
 #include "check.h"
 
 void test_shapes(void);
@@ -453,6 +454,214 @@ static void heights_refuse(void) {
   CHECK_EQ(mesh.vertex_count, 7);
 }
 
+// ---- bodies that are scaled, by a factor for each axis
+
+#define STRETCH_KINDS 7
+static nsvcd_mesh stretch_mesh(int kind, shapes_rng *rng) {
+  shapes_mesh shape;
+  memset(&shape, 0, sizeof shape);
+  if (kind == 0) shapes_random_solid(&shape, rng, 0.4);
+  if (kind == 1) shapes_torus(&shape, 0.2, 0.05, 96, 40);
+  if (kind == 2) shapes_mug(&shape, 0.1, 0.2, 0.01, 32);
+  if (kind == 3) shapes_random_hollow(&shape, rng, 0, 0.4);
+  if (kind == 4) shapes_box(&shape, 0.3, 0.2, 0.1, 1);
+  if (kind == 5) shapes_box(&shape, 1, 1, 0.02, 1), shapes_ellipsoid(&shape, 0.1, 0.1, 0.1, 24);
+  if (kind == 6) shapes_ellipsoid(&shape, 0.3, 0.3, 0.3, 90);  // a level, by its options
+  const nsvcd_mesh mesh = mesh_of(&shape);
+  shapes_free(&shape);
+  return mesh;
+}
+
+// The mesh, each coordinate times its factor, and turned if it is mirrored.
+static void stretch_positions(nsvcd_mesh *mesh, const float *scale) {
+  for (size_t i = 0; i < 3 * mesh->vertex_count; i++) mesh->positions[i] *= scale[i % 3];
+  for (size_t n = 0; n < mesh->triangle_count && scale[0] * scale[1] * scale[2] < 0; n++) {
+    const uint32_t corner = mesh->indices[3 * n + 1];
+    mesh->indices[3 * n + 1] = mesh->indices[3 * n + 2];
+    mesh->indices[3 * n + 2] = corner;
+  }
+}
+
+// Is a point within all that bounds a patch?
+static int stretch_is_within(const nsvcd__geometry *f, size_t i, nsvcd__d3 point) {
+  const nsvcd__sphere sphere = nsvcd__sphere_of(nsvcd__body_patches(f->body), i);
+  const nsvcd__slab slab = nsvcd__slab_at(f->slabs, f->body->padded, i);
+  const nsvcd__d3 n = nsvcd__d3_widen(slab.normal);
+  const nsvcd__d3 from = nsvcd__d3_sub(point, nsvcd__d3_widen(sphere.centre));
+  const double height = nsvcd__d3_dot(n, from), square = nsvcd__d3_dot(from, from);
+  int ok = f->hull_counts[i] > 0 && sqrt(square) <= (double)sphere.radius &&
+           height >= (double)slab.low && height <= (double)slab.high &&
+           square - height * height <= (double)slab.across * (double)slab.across;
+  for (size_t d = 0; d < 26 && ok; d++) {
+    const size_t code = d < 13 ? d : d + 1;
+    const nsvcd__d3 along =
+        nsvcd__d3_of((double)(code % 3) - 1, (double)(code / 3 % 3) - 1, (double)(code / 9) - 1);
+    double most = -HUGE_VAL;
+    for (size_t v = 0; v < f->hull_counts[i]; v++)
+      most = fmax(most, nsvcd__d3_dot(along, nsvcd__stored_point(f, i, v)));
+    ok = nsvcd__d3_dot(along, point) <= most + nsvcd__d3_norm(along) * (double)f->margins[i];
+  }
+  return ok;
+}
+
+// Is each point of the stretched surface within the bounds of a patch that it was in before? Are
+// stored points where they were, stretched, to the error that is stated?
+static int stretch_is_outward(const nsvcd_body *body, const nsvcd_body *scaled, const float *scale,
+                              const nsvcd_mesh *stretched, const float *positions,
+                              shapes_rng *rng) {
+  const nsvcd__geometry a = nsvcd__geometry_of(nsvcd__triangles_of(body));
+  const nsvcd__geometry b = nsvcd__geometry_of(nsvcd__triangles_of(scaled));
+  int ok = 1;
+  for (size_t i = 0; i < b.body->patches; i++) {
+    for (size_t k = 0; k < nsvcd__points_of(&b, i).stored; k++) {
+      const nsvcd__d3 was = nsvcd__stored_point(&a, i, k);
+      const nsvcd__d3 there = nsvcd__d3_of(was.x * (double)scale[0], was.y * (double)scale[1],
+                                           was.z * (double)scale[2]);
+      ok &= sqrt(nsvcd__d3_distance2(nsvcd__stored_point(&b, i, k), there)) <= (double)b.margins[i];
+    }
+  }
+  for (size_t n = 0; n < 1000; n++) {
+    const uint32_t *t =
+        stretched->indices + 3 * (size_t)shapes_pick(rng, (int)stretched->triangle_count);
+    const double u = shapes_uniform(rng, 0, 1), v = shapes_uniform(rng, 0, 1 - u);
+    nsvcd__d3 at[2];
+    for (size_t k = 0; k < 2; k++) {
+      const float *rows = k ? stretched->positions : positions;
+      const nsvcd__d3 c = nsvcd__d3_row(rows, t[0]);
+      at[k] = nsvcd__d3_fma(u, nsvcd__d3_sub(nsvcd__d3_row(rows, t[1]), c),
+                            nsvcd__d3_fma(v, nsvcd__d3_sub(nsvcd__d3_row(rows, t[2]), c), c));
+    }
+    int held = 0;
+    for (size_t i = 0; i < b.body->patches && !held; i++)
+      held = stretch_is_within(&a, i, at[0]) && stretch_is_within(&b, i, at[1]);
+    ok &= held;
+  }
+  return ok;
+}
+
+static void stretch_factors(shapes_rng *rng, size_t trial, float *scale) {
+  for (size_t k = 0; k < 3; k++) {
+    scale[k] = (float)exp(shapes_uniform(rng, -1.5, 1.5));
+    if (trial % 4 == 1) scale[k] = (float)ldexp(1, shapes_pick(rng, 5) - 2);  // exact
+    if (trial % 3 == 1 && shapes_pick(rng, 2)) scale[k] = -scale[k];
+  }
+  if (trial % 10 == 9) scale[shapes_pick(rng, 3)] *= 0.02f;
+}
+
+static nsvcd_answer stretch_ask(const nsvcd_body *moving, const nsvcd_body *other, nsvcd_ask ask,
+                                const nsvcd_pose *path) {
+  static uint64_t memory[1 << 20];
+  nsvcd_question question;
+  nsvcd_answer answer;
+  memset(&question, 0, sizeof question);
+  question.a.body = moving;
+  question.a.poses = path;
+  question.a.count = 2;
+  question.b.body = other;
+  question.ask = ask;
+  if (ask != NSVCD_ASK_HIT) question.to = 1e-5f;
+  CHECK(nsvcd_sweep_workspace_size(&question) <= sizeof memory);
+  CHECK_EQ(nsvcd_sweep(&question, memory, sizeof memory, &answer), NSVCD_OK);
+  return answer;
+}
+
+// The same verdicts, times, distances and normals as the stretched mesh, encoded.
+static void stretched_bodies_are_those_of_stretched_meshes(void) {
+  shapes_rng rng = {6};
+  size_t hits = 0, differ = 0, asked = 0;
+  const nsvcd_body *other;
+  nsvcd_mesh probe = stretch_mesh(0, &rng);
+  CHECK_EQ(nsvcd_encode(&probe, NULL, NULL, NULL, 0, &other), NSVCD_OK);
+  nsvcd_mesh_free(&probe, NULL);
+  for (size_t trial = 0; trial < check_many(3 * STRETCH_KINDS); trial++) {
+    const int kind = (int)(trial % STRETCH_KINDS);
+    nsvcd_mesh mesh = stretch_mesh(kind, &rng);
+    nsvcd_encode_options options;
+    float scale[3];
+    const nsvcd_body *body, *wanted, *scaled;
+    memset(&options, 0, sizeof options);
+    options.patches = kind == 6 ? 700 : 0;
+    options.coarse = trial == 16;
+    options.balls = kind == 2 ? 32 : 0;
+    stretch_factors(&rng, trial, scale);
+    CHECK_EQ(nsvcd_encode(&mesh, &options, NULL, NULL, 0, &body), NSVCD_OK);
+    float *positions = (float *)malloc(3 * mesh.vertex_count * sizeof *positions);
+    memcpy(positions, mesh.positions, 3 * mesh.vertex_count * sizeof *positions);
+    stretch_positions(&mesh, scale);
+    CHECK_EQ(nsvcd_encode(&mesh, &options, NULL, NULL, 0, &wanted), NSVCD_OK);
+    const nsvcd_body_facts facts = nsvcd_body_describe(body), want = nsvcd_body_describe(wanted);
+    void *memory = malloc(facts.size);
+    CHECK_EQ(nsvcd_body_scale(body, scale, memory, facts.size, &scaled), NSVCD_OK);
+    CHECK_EQ(nsvcd_body_load(memory, facts.size, &scaled), NSVCD_OK);
+    const nsvcd_body_facts is = nsvcd_body_describe(scaled);
+    CHECK(stretch_is_outward(body, scaled, scale, &mesh, positions, &rng));
+    CHECK(is.radius <= 1.2f * want.radius && is.mean_patch_radius <= 3 * want.mean_patch_radius);
+    CHECK_EQ(is.open_components, want.open_components);
+    if (trial % 4 == 1 && trial % 10 != 9 && !options.coarse) CHECK(!(is.quantization_error > 0));
+    if (!options.coarse) CHECK(is.quantization_error <= 4e-7f * is.extent);
+    for (size_t k = 0; k < 3; k++) {
+      CHECK_NEAR(is.low[k], want.low[k], (options.coarse ? 1e-3 : 1e-4) * want.radius);
+      CHECK_NEAR(is.high[k], want.high[k], (options.coarse ? 1e-3 : 1e-4) * want.radius);
+    }
+    for (size_t n = 0; n < 100; n++) {
+      nsvcd_pose path[2];
+      for (size_t p = 0; p < 2; p++) {
+        double direction[3], turn[4];
+        shapes_direction(&rng, direction);
+        shapes_quaternion(&rng, turn);
+        for (size_t k = 0; k < 4; k++) path[p].rotation[k] = (float)turn[k];
+        for (size_t k = 0; k < 3; k++)
+          path[p].position[k] =
+              (float)(direction[k] * ((double)want.radius + shapes_uniform(&rng, 0, 0.5)));
+      }
+      const nsvcd_ask ask = n % 3 == 0   ? NSVCD_ASK_HIT
+                            : n % 3 == 1 ? NSVCD_ASK_FIRST
+                                         : NSVCD_ASK_DISTANCE;
+      const nsvcd_answer x = stretch_ask(scaled, other, ask, path),
+                         y = stretch_ask(wanted, other, ask, path);
+      asked++;
+      hits += y.verdict == NSVCD_HIT;
+      differ += x.verdict != y.verdict && !options.coarse;
+      CHECK(x.verdict == y.verdict || x.verdict == NSVCD_UNDECIDED || options.coarse);
+      if (x.verdict != y.verdict || options.coarse) continue;
+      if (ask == NSVCD_ASK_FIRST && x.verdict == NSVCD_HIT) {
+        CHECK(x.time.low <= y.time.high + 1e-6f && y.time.low <= x.time.high + 1e-6f);
+      }
+      if (ask == NSVCD_ASK_DISTANCE)
+        CHECK(x.distance.low <= y.distance.high + 1e-6f &&
+              y.distance.low <= x.distance.high + 1e-6f);
+    }
+    free(memory);
+    free(positions);
+    nsvcd_body_free(body, NULL);
+    nsvcd_body_free(wanted, NULL);
+    nsvcd_mesh_free(&mesh, NULL);
+  }
+  printf("stretched: %zu of %zu hit, %zu undecided\n", hits, asked, differ);
+  CHECK(hits > asked / 10 && hits < asked - asked / 10);
+  CHECK(differ <= asked / 200);
+  nsvcd_body_free(other, NULL);
+}
+
+static void stretched_bodies_refuse(void) {
+  static uint64_t memory[1 << 14];
+  static const float bad[][3] = {
+      {0, 1, 1}, {1, NAN, 1}, {1, 1, INFINITY}, {1e30f, 1, 1}, {1, 1, 1e-20f}};
+  const nsvcd_body *ball, *box, *scaled = NULL;
+  const float half[3] = {1, 1, 1}, long_one[3] = {1, 1, 2}, mirror[3] = {-2, 2, 2};
+  CHECK_EQ(nsvcd_encode_sphere(1, NULL, &ball), NSVCD_OK);
+  CHECK_EQ(nsvcd_encode_box(half, 0, NULL, &box), NSVCD_OK);
+  CHECK_EQ(nsvcd_body_scale(ball, long_one, memory, sizeof memory, &scaled), NSVCD_ERROR_SCALE);
+  CHECK_EQ(nsvcd_body_scale(ball, NULL, memory, sizeof memory, &scaled), NSVCD_ERROR_ARGUMENT);
+  for (size_t k = 0; k < sizeof bad / sizeof *bad; k++)
+    CHECK_EQ(nsvcd_body_scale(box, bad[k], memory, sizeof memory, &scaled), NSVCD_ERROR_SCALE);
+  CHECK(!scaled);
+  CHECK_EQ(nsvcd_body_scale(ball, mirror, memory, sizeof memory, &scaled), NSVCD_OK);
+  CHECK_NEAR(nsvcd_body_describe(scaled).radius, 2, 1e-5);
+  nsvcd_body_free(ball, NULL);
+  nsvcd_body_free(box, NULL);
+}
+
 void test_shapes(void) {
   RUN(hulls_hold_their_points);
   RUN(hulls_of_whole_numbers_are_exact);
@@ -462,6 +671,8 @@ void test_shapes(void) {
   RUN(heights_are_where_they_are);
   RUN(heights_are_cut_as_they_say);
   RUN(heights_refuse);
+  RUN(stretched_bodies_are_those_of_stretched_meshes);
+  RUN(stretched_bodies_refuse);
 }
 
 CHECK_ALONE(test_shapes)
