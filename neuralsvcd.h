@@ -699,9 +699,10 @@ NSVCDDEF nsvcd_result nsvcd_body_trust(const void *memory, size_t size,
 //
 // Factors that differ stretch, and an odd number of negative ones mirrors, the mesh: verdicts are
 // about its vertices, each coordinate times its factor, rounded to float. Which components are
-// closed does not change. Latents are left out. Balls grow, and with them ball_error, so for looks encode
-// the stretched mesh; so too if factors differ a hundredfold, since then patches are long, and
-// questions take longer. A body with a convex radius would not be round any more, and is refused.
+// closed does not change. Latents are left out. Balls grow, and with them ball_error, so for looks
+// encode the stretched mesh; so too if factors differ a hundredfold, since then patches are long,
+// and questions take longer. A body with a convex radius would not be round any more, and is
+// refused.
 //   body       not NULL
 //   scale      (3) not NULL, not 0; all the same and > 0: as a whole
 //   memory     (capacity) bytes, as many as the body has or more, not NULL, aligned to
