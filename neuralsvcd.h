@@ -3283,7 +3283,7 @@ static int nsvcd__next_corner(const nsvcd__quickhull *h, nsvcd__facet *f, size_t
 // in a plane.
 static nsvcd_result nsvcd__start_hull(nsvcd__quickhull *h) {
   nsvcd__facet f;
-  uint32_t d;
+  uint32_t d = 0;
   memset(&f, 0, sizeof f);
   for (size_t k = 1; k < 4; k++) {
     if (!nsvcd__next_corner(h, &f, k, &d)) return NSVCD_ERROR_EMPTY;
