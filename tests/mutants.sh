@@ -466,7 +466,6 @@ shapes: points that the first facet saw|if (at == NSVCD__NO_INDEX) return;|if (a
 shapes: points between corners stay|if (h->fan[i] < 3) continue;|if (h->fan[i] < 1) continue;
 shapes: stretched as the longest axis|f.positions[i] *= (float)by->axes[i % 3];|f.positions[i] *= (float)by->most;
 shapes: points that are not stretched|const double whole = floor((double)*at * (by->axes[n / count] / by->most) + 0.5);|const double whole = (double)*at;
-shapes: normals stretched as points are|nsvcd__d3_of((double)slab.normal.x / by->axes[0], (double)slab.normal.y / by->axes[1],|nsvcd__d3_of((double)slab.normal.x * by->axes[0], (double)slab.normal.y * by->axes[1],
 shapes: slabs without the margin|const double more = margin + 1e-6 * reach;|const double more = -margin;
 shapes: half a patch's sphere|const double reach = (1 + 1e-6) * (sqrt(farthest) + margin);|const double reach = 0.5 * (sqrt(farthest) + margin);
 shapes: a mirror that turns nothing|if (by->mirror) nsvcd__turn_triangles(\&f);|
