@@ -539,6 +539,25 @@ static int stretch_is_outward(const nsvcd_body *body, const nsvcd_body *scaled, 
   return ok;
 }
 
+// Are the triangles those of the stretched mesh, wound as they are?
+static int stretch_is_wound(const nsvcd_body *scaled, const nsvcd_mesh *mesh) {
+  const nsvcd__geometry f = nsvcd__geometry_of(nsvcd__triangles_of(scaled));
+  int ok = 1;
+  for (size_t i = 0; i < f.body->patches; i++)
+    for (size_t n = f.first_triangle[i]; n < f.first_triangle[i + 1]; n++) {
+      const uint32_t *t = mesh->indices + 3 * (size_t)nsvcd__triangle_number(&f, i, n);
+      nsvcd__d3 c[2][3], normals[2];
+      nsvcd__patch_triangle(&f, i, n, c[0]);
+      for (size_t k = 0; k < 3; k++) c[1][k] = nsvcd__d3_row(mesh->positions, t[k]);
+      for (size_t k = 0; k < 2; k++)
+        normals[k] =
+            nsvcd__d3_cross(nsvcd__d3_sub(c[k][1], c[k][0]), nsvcd__d3_sub(c[k][2], c[k][0]));
+      ok &= nsvcd__d3_distance2(normals[0], normals[1]) <=
+            1e-12 * nsvcd__d3_dot(normals[1], normals[1]);
+    }
+  return ok;
+}
+
 static void stretch_factors(shapes_rng *rng, size_t trial, float *scale) {
   for (size_t k = 0; k < 3; k++) {
     scale[k] = (float)exp(shapes_uniform(rng, -1.5, 1.5));
@@ -594,6 +613,7 @@ static void stretched_bodies_are_those_of_stretched_meshes(void) {
     CHECK_EQ(nsvcd_body_scale(body, scale, memory, facts.size, &scaled), NSVCD_OK);
     CHECK_EQ(nsvcd_body_load(memory, facts.size, &scaled), NSVCD_OK);
     const nsvcd_body_facts is = nsvcd_body_describe(scaled);
+    if (!options.coarse) CHECK(stretch_is_wound(scaled, &mesh));
     CHECK(stretch_is_outward(body, scaled, scale, &mesh, positions, &rng));
     CHECK(is.radius <= 1.2f * want.radius && is.mean_patch_radius <= 3 * want.mean_patch_radius);
     CHECK_EQ(is.open_components, want.open_components);
