@@ -50,7 +50,8 @@
 //
 // FUNCTIONS, each with its contract below
 //   nsvcd_obj_load        a file -> a mesh; so do nsvcd_stl_load and nsvcd_mesh_load
-//   nsvcd_mesh_of_faces   faces in memory -> a mesh
+//   nsvcd_mesh_of_faces   faces in memory -> a mesh; nsvcd_mesh_of_heights: a height field
+//   nsvcd_mesh_hull       points -> their convex hull, a mesh
 //   nsvcd_encode          a mesh -> a body; nsvcd_encode_sphere, _capsule, _box, _cloud: a shape
 //   nsvcd_body_load       bytes -> a body, every byte checked
 //   nsvcd_body_describe   a body -> its size, box, triangles; is it closed?
@@ -67,8 +68,8 @@
 //   NSVCD_STATIC      all functions are static, in a file that has the implementation
 //   NSVCD_NO_STDIO    no file access: no nsvcd_obj_load and the like; nsvcd_obj_parse stays
 //   NSVCD_NO_READERS  no readers of OBJ, STL and faces
-//   NSVCD_NO_ENCODER  no readers, no nsvcd_mesh_cut, no nsvcd_encode: bodies come from
-//                     nsvcd_body_load
+//   NSVCD_NO_ENCODER  no readers, no other function that makes a mesh, no nsvcd_encode:
+//                     bodies come from nsvcd_body_load
 //   NSVCD_NO_PROOF    the network alone: triangles are neither stored nor read
 //   NSVCD_NO_NETWORK  the proof alone: no weights.h, no gradient, no optimizer
 //   NSVCD_NO_SMALL, NSVCD_NO_BASE   no such decoder; the default is the largest that is left
@@ -172,6 +173,8 @@ extern "C" {
 
 // ======================================================================= mesh: files and triangles
 #include "mesh/mesh.h"      // checks; cuts at a box
+#include "mesh/hull.h"      // the convex hull of points
+#include "mesh/heights.h"   // height fields
 #include "mesh/weld.h"      // vertices at the same position
 #include "mesh/polygons.h"  // one face into triangles
 #include "mesh/faces.h"     // faces of any number of corners into a mesh
@@ -209,7 +212,8 @@ extern "C" {
 #include "body/geometry.h"    // what the proof reads: slabs, hulls, triangles
 #include "body/voxels.h"      // a mesh as a grid of cells
 #include "body/ball_cover.h"  // a few balls that cover a mesh, for looks
-#include "body/trust.h"       // is a blob sound? load it, scale it, describe it
+#include "body/trust.h"       // is a blob sound? load it, describe it
+#include "body/scale.h"       // a body, scaled
 #include "body/write.h"       // a surface -> what the proof reads
 #include "body/encode.h"      // nsvcd_encode
 #include "body/shapes.h"      // spheres, capsules, boxes, clouds

@@ -200,7 +200,7 @@ int main(int argc, char **argv) {
   FILE *from = fopen(argv[1], "rb");
   const size_t size = argc == 3 && from ? fread(memory, 1, sizeof memory, from) : 0;
   if (nsvcd_body_load(memory, size, &body)) return 1;
-  const nsvcd_result result = nsvcd_body_scale(body, 3, memory, sizeof memory, &body);
+  const nsvcd_result result = nsvcd_body_scale(body, (const float[3]){3, 3, 3}, memory, sizeof memory, &body);
   if (result) return puts(nsvcd_result_string(result)) < 0;
 #endif
   FILE *to = fopen(argv[2], "wb");

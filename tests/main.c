@@ -47,6 +47,7 @@ void test_long(void);
 void test_broad_phase(void);
 void test_looks(void);
 void test_contacts(void);
+void test_shapes(void);
 void test_world(void);
 void test_slide(void);
 void test_proof(void);
@@ -119,6 +120,7 @@ static const test_file files[] = {
     OF(broad_phase),
     OF(looks),
     OF(contacts),
+    OF(shapes),
     OF(world),
     OF(slide),
     OF(proof),

@@ -1,7 +1,7 @@
 #!/bin/sh
 # Are the tests of the proof worth anything? Each mutant is the library with one mistake in it; tests/test_proof.c has to
 # fail on it, or, where its name begins with `level:`, `asks:`, `long:`, `exact:`, `floor:`, `solids:`, `round:`,
-# `robot:`, `looks:`, `contacts:`, `world:`, `slide:`, `route_looks:`, `many_joints:`, `postures:`, `reach:`, `ranges:`, `allowances:`, `mimics:`, `merge:` or `cones:`, tests/test_level.c and so on; of `verify:` and `checker:` the mistake is in the checker of
+# `robot:`, `looks:`, `shapes:`, `contacts:`, `world:`, `slide:`, `route_looks:`, `many_joints:`, `postures:`, `reach:`, `ranges:`, `allowances:`, `mimics:`, `merge:` or `cones:`, tests/test_level.c and so on; of `verify:` and `checker:` the mistake is in the checker of
 # certificates, examples/verify, and tests/test_certificate.c or tests/test_checker.c has to fail, of `fits:`
 # tests/test_fits.c, of `plans:` tests/forge.py, which needs build/svcd. Prints a line for each, and exits with 1 if one survives. An argument runs only the mutants whose
 # name contains it. Some 20 seconds each; PART=0 OF=16 WORK=folder: every 16th of them, in a folder of its own.
@@ -12,7 +12,7 @@ cd "$(dirname "$0")/.." || exit 1
 work=${WORK:-build/mutants}
 mkdir -p $work/tests/bench $work/examples/scenery $work/examples/verify
 cp weights.h $work/
-cp tests/test_proof.c tests/test_level.c tests/test_asks.c tests/test_long.c tests/test_exact.c tests/test_floor.c tests/test_solids.c tests/test_round.c tests/test_robot.c tests/test_looks.c tests/test_contacts.c tests/test_world.c tests/test_slide.c tests/test_route_looks.c tests/test_many_joints.c tests/test_postures.c tests/test_reach.c tests/test_ranges.c tests/test_allowances.c tests/test_mimics.c tests/test_merge.c tests/test_cones.c tests/test_certificate.c tests/test_checker.c tests/test_fits.c tests/*.h $work/tests/
+cp tests/test_proof.c tests/test_level.c tests/test_asks.c tests/test_long.c tests/test_exact.c tests/test_floor.c tests/test_solids.c tests/test_round.c tests/test_robot.c tests/test_looks.c tests/test_shapes.c tests/test_contacts.c tests/test_world.c tests/test_slide.c tests/test_route_looks.c tests/test_many_joints.c tests/test_postures.c tests/test_reach.c tests/test_ranges.c tests/test_allowances.c tests/test_mimics.c tests/test_merge.c tests/test_cones.c tests/test_certificate.c tests/test_checker.c tests/test_fits.c tests/*.h $work/tests/
 cp tests/bench/*.h $work/tests/bench/
 cp examples/scenery/*.h $work/examples/scenery/
 cp examples/verify/verify.c $work/examples/verify/
@@ -143,7 +143,7 @@ round: points on the skeleton|fmin((double)p->fixed.counts->convex_radius, found
 round: gaps of the skeletons|(float)(fmax(found->distance - p->given.radius, 0) * unit);|(float)(found->distance * unit);
 round: a point on either|    c->point[k] += gap * c->normal[k];|
 round: a run short of its last|for (size_t k = 0; k < count; k++) {\n    if (k == end)|for (size_t k = 0; k + 1 < count; k++) {\n    if (k == end)
-round: not scaled|*radius *= scale;|
+round: not scaled|*radius *= (float)by->most;|
 two patches by a plane of any triangle|if (height > highest) top = b;|if (height > highest) top = fixed_first;
 two patches, but the last triangle|for (size_t a = moving_first; a < moving_end; a++) { const nsvcd__triangle_pair pair = nsvcd__pair_of(p, i, j, a, top);|for (size_t a = moving_first; a + 1 < moving_end; a++) { const nsvcd__triangle_pair pair = nsvcd__pair_of(p, i, j, a, top);
 asks: a contact before the start|nsvcd__max(nsvcd__min(clear_until, found->tick), 0);|nsvcd__min(clear_until, found->tick);
@@ -458,6 +458,19 @@ looks: a slab's height alone|const nsvcd__v square = nsvcd__v_fma(along, along, 
 looks: balls of the cluster before|    s.placed = 0;\n    if (s.b.is_box)|    if (s.b.is_box)
 looks: the last child of a level is not seen|for (size_t i = 0; i < count \&\& !nsvcd__look_ends(s); i++)\n    nsvcd__look_down|for (size_t i = 0; i + 1 < count \&\& !nsvcd__look_ends(s); i++)\n    nsvcd__look_down
 looks: any box is one|for (size_t k = 0; k < 6; k++) is_box \&= faces[k] == 2;|
+shapes: heights in one number|return (double)(upper + lower / half) * (double)half + (double)(lower % half);|return (double)upper * (double)half;
+shapes: what is in the plane is seen|if (nsvcd__facet_height(h, other, point) > 0) {|if (nsvcd__facet_height(h, other, point) >= 0) {
+shapes: a grid of 2^20|#define NSVCD__GRID_BITS 30|#define NSVCD__GRID_BITS 20
+shapes: points of the last facet alone|if (!(nsvcd__facet_height(h, h->facets + at, q) > 0)) {|if (0) {
+shapes: points that the first facet saw|if (at == NSVCD__NO_INDEX) return;|if (at == NSVCD__NO_INDEX \|\| list == at) return;
+shapes: points between corners stay|if (h->fan[i] < 3) continue;|if (h->fan[i] < 1) continue;
+shapes: stretched as the longest axis|f.positions[i] *= (float)by->axes[i % 3];|f.positions[i] *= (float)by->most;
+shapes: points that are not stretched|const double whole = floor((double)*at * (by->axes[n / count] / by->most) + 0.5);|const double whole = (double)*at;
+shapes: slabs without the margin|const double more = margin + 1e-6 * reach;|const double more = -margin;
+shapes: half a patch's sphere|const double reach = (1 + 1e-6) * (sqrt(farthest) + margin);|const double reach = 0.5 * (sqrt(farthest) + margin);
+shapes: a mirror that turns nothing|if (by->mirror) nsvcd__turn_triangles(\&f);|
+shapes: the other diagonal|indices[3 * count] = corners[0];\n        indices[3 * count + 1] = corners[k - 1];|indices[3 * count] = corners[found - 1];\n        indices[3 * count + 1] = corners[k - 2];
+shapes: holes are samples at 0|return nsvcd__magnitude(height) > 0x7f800000u;|return nsvcd__magnitude(height) > 0xff800000u;
 route_looks: the world turned|return link ? nsvcd__look_axes(c->links[link - 1].axis) : world;|(void)world; return nsvcd__look_axes(link ? c->links[link - 1].axis : nsvcd__d3_of(0, 0, 1));
 route_looks: sines of the next quarter|sines[l] = quarter \& 2 ? -sine : sine;|sines[l] = quarter \& 1 ? -sine : sine;
 route_looks: boxes of half the parts|part->low[i] = low - part->radius;|part->low[i] = low + part->radius;
@@ -583,6 +596,7 @@ while IFS= read -r line; do
     round:*) file=test_round.c fused=-ffp-contract=fast ;;
     robot:*) file=test_robot.c ;;
     looks:*) file=test_looks.c ;;
+    shapes:*) file=test_shapes.c ;;
     contacts:*) file=test_contacts.c ;;
     world:*) file=test_world.c ;;
     slide:*) file=test_slide.c ;;

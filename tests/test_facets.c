@@ -3,7 +3,7 @@
 #define NSVCD_STATIC
 #define NEURALSVCD_IMPLEMENTATION
 #include "../src/ground/strings.h"
-#include "../src/body/trust.h"
+#include "../src/body/scale.h"
 #include "../src/body/encode.h"
 #include "../src/query/question.h"
 
@@ -28,8 +28,8 @@ static void query_scaled_bodies_are_bodies_of_scaled_meshes(void) {
     query_memory scaled_memory = query_reserve(nsvcd_body_describe(s.moving).size);
     const nsvcd_body *encoded = query_encode(&mesh, QUERY_POINTS, &encoded_memory);
     const nsvcd_body *scaled = NULL;
-    CHECK_EQ(nsvcd_body_scale(s.moving, scale, scaled_memory.at, nsvcd_body_describe(s.moving).size,
-                              &scaled),
+    CHECK_EQ(nsvcd_body_scale(s.moving, (const float[3]){scale, scale, scale}, scaled_memory.at,
+                              nsvcd_body_describe(s.moving).size, &scaled),
              NSVCD_OK);
     if (encoded && scaled) {
       nsvcd_answer a = query_ask(encoded, s.motion, QUERY_POSES, s.fixed, &s.fixed_pose, NULL);
@@ -80,9 +80,10 @@ static void facets_scaled_far_are_loaded(void) {
   CHECK_EQ(nsvcd_encode(&mesh, &options, NULL, NULL, 0, &body), NSVCD_OK);
   const size_t size = nsvcd_body_describe(body).size;
   query_memory memory = query_reserve(size);
-  CHECK_EQ(nsvcd_body_scale(body, 7, memory.at, size, &scaled), NSVCD_OK);
+  CHECK_EQ(nsvcd_body_scale(body, (const float[3]){7, 7, 7}, memory.at, size, &scaled), NSVCD_OK);
   CHECK_EQ(nsvcd_body_load(scaled, size, &scaled), NSVCD_OK);
-  CHECK_EQ(nsvcd_body_scale(body, 1000, memory.at, size, &scaled), NSVCD_ERROR_SCALE);
+  CHECK_EQ(nsvcd_body_scale(body, (const float[3]){1000, 1000, 1000}, memory.at, size, &scaled),
+           NSVCD_ERROR_SCALE);
   query_release(&memory);
   nsvcd_body_free(body, NULL);
 }
@@ -246,7 +247,9 @@ static void facets_are_scaled_outward(void) {
   query_memory memory = query_reserve(size);
   for (size_t k = 0; k < 4; k++) {
     const nsvcd_body *scaled = NULL;
-    CHECK_EQ(nsvcd_body_scale(body, scales[k], memory.at, size, &scaled), NSVCD_OK);
+    CHECK_EQ(nsvcd_body_scale(body, (const float[3]){scales[k], scales[k], scales[k]}, memory.at,
+                              size, &scaled),
+             NSVCD_OK);
     for (size_t i = 0; i < body->patches; i++)
       inward += !facets_are_outward(body, scaled, (double)scales[k], i);
   }

@@ -3,7 +3,7 @@
 // header's switches.
 #define NSVCD_STATIC
 #define NEURALSVCD_IMPLEMENTATION
-#include "../src/body/trust.h"
+#include "../src/body/scale.h"
 #include "../src/body/encode.h"
 #include "../src/query/question.h"
 
@@ -37,8 +37,8 @@ static void pool_open(void) {
 }
 static const nsvcd_body *pool_scaled(size_t n, const nsvcd_body *body, double scale) {
   const nsvcd_body *out = NULL;
-  CHECK_EQ(nsvcd_body_scale(body, (float)scale, scaled_memory[n].at, nsvcd_body_size(QUERY_POINTS),
-                            &out),
+  CHECK_EQ(nsvcd_body_scale(body, (const float[3]){(float)scale, (float)scale, (float)scale},
+                            scaled_memory[n].at, nsvcd_body_size(QUERY_POINTS), &out),
            NSVCD_OK);
   return out;
 }

@@ -5,7 +5,7 @@
 #define _POSIX_C_SOURCE 200809L
 #define NSVCD_STATIC
 #define NEURALSVCD_IMPLEMENTATION
-#include "../src/body/trust.h"
+#include "../src/body/scale.h"
 #include "../src/body/encode.h"
 #include "../src/plan/plan.h"
 
@@ -569,7 +569,8 @@ static void level_blobs_are_checked(void) {
   }
   copy->checksum = nsvcd__body_checksum(copy);
   CHECK_EQ(nsvcd_body_load(copy, size, &loaded), NSVCD_OK);
-  CHECK_EQ(nsvcd_body_scale(body, 0.5f, copy, size, &loaded), NSVCD_OK);
+  CHECK_EQ(nsvcd_body_scale(body, (const float[3]){0.5f, 0.5f, 0.5f}, copy, size, &loaded),
+           NSVCD_OK);
   const nsvcd_body_facts half = nsvcd_body_describe(loaded);
   CHECK_NEAR(half.radius / nsvcd_body_describe(body).radius, 0.5, 1e-5);
   CHECK_EQ(nsvcd_body_load(copy, size, &loaded), NSVCD_OK);
@@ -654,7 +655,8 @@ static void level_latents_are_added(void) {
     CHECK_EQ(nsvcd_body_load(copy, facts.size, &loaded), NSVCD_ERROR_BODY);
     *sum = before;
   }
-  CHECK_EQ(nsvcd_body_scale(body, 0.5f, copy, facts.size, &loaded), NSVCD_OK);
+  CHECK_EQ(nsvcd_body_scale(body, (const float[3]){0.5f, 0.5f, 0.5f}, copy, facts.size, &loaded),
+           NSVCD_OK);
   const nsvcd__level top = nsvcd__level_of(body->padded, nsvcd__level_count(body->padded) - 1);
   for (size_t i = 0; i < 3 * top.slots; i++) {
     CHECK_NEAR(nsvcd__level_areas(loaded, top)[i], 0.25 * (double)nsvcd__level_areas(body, top)[i],

@@ -143,7 +143,9 @@ static void balls_cover_the_mesh(void) {
       for (int k = 0; k < (n == 1 ? 3 : 1); k++) {
         const float scale = scales[k];
         const nsvcd_body *body = NULL;
-        CHECK_EQ(nsvcd_body_scale(b.body, scale, copy, facts.size, &body), NSVCD_OK);
+        CHECK_EQ(nsvcd_body_scale(b.body, (const float[3]){scale, scale, scale}, copy, facts.size,
+                                  &body),
+                 NSVCD_OK);
         const nsvcd_body *loaded;
         CHECK_EQ(nsvcd_body_load(copy, facts.size, &loaded), NSVCD_OK);
         size_t uncovered = 0;

@@ -4,7 +4,7 @@
 #define NSVCD_STATIC
 #define NEURALSVCD_IMPLEMENTATION
 #include "../src/ground/strings.h"
-#include "../src/body/trust.h"
+#include "../src/body/scale.h"
 #include "../src/body/encode.h"
 #include "../src/plan/plan.h"
 
@@ -926,7 +926,9 @@ static void plan_scale(plan_scene *s, float scale, query_memory *memory) {
   for (size_t b = 0; b < s->problem.body_count; b++) {
     const size_t size = nsvcd_body_describe(s->bodies[b]).size;
     memory[b] = query_reserve(size);
-    CHECK_EQ(nsvcd_body_scale(s->bodies[b], scale, memory[b].at, size, &s->bodies[b]), NSVCD_OK);
+    CHECK_EQ(nsvcd_body_scale(s->bodies[b], (const float[3]){scale, scale, scale}, memory[b].at,
+                              size, &s->bodies[b]),
+             NSVCD_OK);
     for (int k = 0; k < 3; k++) s->rest[b].position[k] *= scale;
   }
   for (size_t j = 0; j < 3; j++) {

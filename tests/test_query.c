@@ -2,7 +2,7 @@
 #define NSVCD_STATIC
 #define NEURALSVCD_IMPLEMENTATION
 #include "../src/mesh/files.h"
-#include "../src/body/trust.h"
+#include "../src/body/scale.h"
 #include "../src/body/encode.h"
 #include "../src/query/question.h"
 
@@ -83,7 +83,9 @@ static void query_logit_is_invariant_under_scale(void) {
     for (int b = 0; b < 2; b++) {
       size_t size = nsvcd_body_describe(from[b]).size;
       memory[b] = query_reserve(size);
-      CHECK_EQ(nsvcd_body_scale(from[b], scale, memory[b].at, size, &to[b]), NSVCD_OK);
+      CHECK_EQ(nsvcd_body_scale(from[b], (const float[3]){scale, scale, scale}, memory[b].at, size,
+                                &to[b]),
+               NSVCD_OK);
     }
     scaled.moving = to[0];
     scaled.fixed = to[1];
@@ -172,7 +174,8 @@ static void query_scales_in_the_question(void) {
     for (int b = 0; b < 2; b++) {
       nsvcd_mover *mover = b ? &question.b : &question.a;
       const size_t size = nsvcd_body_describe(mover->body).size;
-      CHECK_EQ(nsvcd_body_scale(mover->body, scales[b], memory[b].at, size, &mover->body),
+      CHECK_EQ(nsvcd_body_scale(mover->body, (const float[3]){scales[b], scales[b], scales[b]},
+                                memory[b].at, size, &mover->body),
                NSVCD_OK);
       mover->scale = 0;
     }
@@ -482,7 +485,8 @@ static void query_knows_what_is_no_body(void) {
     const nsvcd_body *scaled;
     CHECK_EQ(nsvcd_body_describe(no_body).size, 0);
     CHECK_EQ(nsvcd_body_patch(no_body, 0, centre, &radius), 0);
-    CHECK_EQ(nsvcd_body_scale(no_body, 2, room, sizeof room, &scaled), wanted);
+    CHECK_EQ(nsvcd_body_scale(no_body, (const float[3]){2, 2, 2}, room, sizeof room, &scaled),
+             wanted);
     nsvcd_body_free(no_body, NULL);  // which is not the heap's
   }
   CHECK_EQ(nsvcd_body_describe(NULL).size, 0);
@@ -532,7 +536,7 @@ static const nsvcd_body *query_scaled(const query_library *library, const char *
   const nsvcd_body *scaled = NULL;
   for (size_t i = 0; i < library->count; i++)
     if (strcmp(library->names[i], name) == 0)
-      nsvcd_body_scale(library->bodies[i], scale, memory,
+      nsvcd_body_scale(library->bodies[i], (const float[3]){scale, scale, scale}, memory,
                        nsvcd_body_size(NSVCD_DEFAULT_NETWORK_PATCHES), &scaled);
   return scaled;
 }

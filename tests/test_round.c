@@ -639,7 +639,9 @@ static void round_scales_are_exact(void) {
     sum += (double)q.clearance;
     double quantum = 0;
     if (kind == 2) {
-      CHECK_EQ(nsvcd_body_scale(balls[0], scales[0], room, sizeof room, &q.a.body), NSVCD_OK);
+      CHECK_EQ(nsvcd_body_scale(balls[0], (const float[3]){scales[0], scales[0], scales[0]}, room,
+                                sizeof room, &q.a.body),
+               NSVCD_OK);
       q.a.scale = 0;
       quantum = (double)nsvcd_body_describe(q.a.body).quantization_error;
     }
@@ -795,7 +797,8 @@ static void round_bodies_are_saved_and_scaled(void) {
     if (!copy) exit(1);
     memcpy(copy, b.body, facts.size);
     CHECK_EQ(nsvcd_body_load(copy, facts.size, &loaded), NSVCD_OK);
-    CHECK_EQ(nsvcd_body_scale(b.body, 2, copy, facts.size, &loaded), NSVCD_OK);
+    CHECK_EQ(nsvcd_body_scale(b.body, (const float[3]){2, 2, 2}, copy, facts.size, &loaded),
+             NSVCD_OK);
     CHECK_EQ(nsvcd_body_load(copy, facts.size, &loaded), NSVCD_OK);
     const nsvcd_body_facts scaled = nsvcd_body_describe(loaded);
     CHECK_EQ(scaled.convex_radius, 2 * facts.convex_radius);

@@ -62,19 +62,6 @@ static int nsvcd__spheres_are_sound(const nsvcd_body *b) {
           nsvcd__covers(whole, groups, nsvcd__body_groups(b)));
 }
 
-// Would the scaled spheres still be within the limits of nsvcd_body_load? In double, for the
-// products may overflow a float.
-static int nsvcd__spheres_fit(const nsvcd_body *b, float radius, float scale) {
-  const double least = (double)NSVCD_MIN_RADIUS / (double)scale;
-  const double most = (double)NSVCD_MAX_COORDINATE / (double)scale;
-  if ((double)radius < least) return 0;
-  for (size_t i = 0; i < 3 * (size_t)b->padded; i++) {
-    if (fabs((double)nsvcd__body_patches(b).x[i]) > most) return 0;
-  }
-  // no radius or centre of a group exceeds twice the extent
-  return 2 * (double)b->extent <= (double)NSVCD__MAX_LENGTH / (double)scale;
-}
-
 #ifndef NSVCD_NO_NETWORK
 // Are the extremes in range, and is their padding zero?
 static int nsvcd__extremes_are_sound(const nsvcd_body *b) {
@@ -282,106 +269,6 @@ NSVCDDEF nsvcd_result nsvcd_body_load(const void *memory, size_t size,
   if (b->checksum != nsvcd__body_checksum(b) || !nsvcd__body_is_sound(b))
     return NSVCD_ERROR_BODY;
   *body = b;
-  return NSVCD_OK;
-}
-
-static void nsvcd__scale_spheres(nsvcd_body *b, float scale) {
-  float *spheres = (float *)(b + 1);
-  for (size_t i = 0; i < 3 * (size_t)b->padded + b->patches; i++) spheres[i] *= scale;
-}
-
-// Scales a body of latents, without the body of triangles in it.
-static void nsvcd__scale_latents(nsvcd_body *b, float scale) {
-  float *areas = (float *)nsvcd__writable(b, nsvcd__body_areas(b));
-  nsvcd__scale_spheres(b, scale);
-  for (size_t i = 0; i < 3 * nsvcd__area_slots(b->padded); i++) {
-    areas[i] *= scale;
-    areas[i] *= scale;
-  }
-  nsvcd__cover_level(b, 0, nsvcd__body_patches(b), b->patches);
-  nsvcd__body_finish(b);
-  b->checksum = nsvcd__body_checksum(b);
-}
-
-// Scales the balls, which become larger by what rounding does to them and to the vertices.
-static void nsvcd__scale_balls(const nsvcd__geometry *f, double by) {
-  const nsvcd__covering all = nsvcd__covering_of(f->body);
-  double rounding = 0;
-  for (size_t n = 0; n < f->counts->balls; n++) {
-    nsvcd__sphere ball = nsvcd__sphere_of(all.balls, n);
-    const nsvcd__d3 centre = nsvcd__d3_scale(nsvcd__d3_widen(ball.centre), by);
-    const double radius = (double)ball.radius * by;
-    const double more = 5e-7 * (nsvcd__d3_norm(centre) + radius);
-    rounding = nsvcd__max(rounding, 2 * more);
-    ball.centre = nsvcd__f3_round(centre);
-    ball.radius = nsvcd__above(radius + more);
-    nsvcd__sphere_store(ball, f->balls, all.ball_slots, n);
-  }
-  if (f->counts->balls > 0)
-    f->counts->ball_error = nsvcd__above((double)f->counts->ball_error * by + rounding);
-  nsvcd__cover_balls(f);
-}
-
-// Scales a body of triangles. What rounding does to vertices and to the convex radius widens the
-// margins and errors, and is what vertices are off by.
-static void nsvcd__scale_triangles(nsvcd_body *b, float scale) {
-  const nsvcd__geometry f = nsvcd__geometry_of(b);
-  const double by = (double)scale;
-  float *radius = &f.counts->convex_radius;
-  const double exact = (double)*radius * by;
-  nsvcd__scale_spheres(b, scale);
-  *radius *= scale;
-  const double off = fabs(exact - (double)*radius);
-  if (f.counts->gap > 0) f.counts->gap = nsvcd__above((double)f.counts->gap * by);
-  double worst = off;
-  for (size_t i = 0; i < 3 * (size_t)f.counts->positions; i++) {
-    const double whole = (double)f.positions[i] * by;
-    f.positions[i] *= scale;
-    worst = nsvcd__max(worst, 1.8 * fabs(whole - (double)f.positions[i]) + off);
-  }
-  const double off_mesh = worst + (double)nsvcd__off_mesh(&f) * by;
-  for (size_t i = 0; i < b->patches; i++) {
-    const double distance = (double)nsvcd__f3_norm(nsvcd__patch_centre(&f, i));
-    nsvcd__slab slab = nsvcd__slab_at(f.slabs, b->padded, i);
-    f.steps[i] *= scale;
-    const double rounding = 2e-7 * (distance + 6e4 * (double)f.steps[i]) + off;
-    f.margins[i] = nsvcd__above((double)f.margins[i] * by + rounding);
-    f.errors[i] = nsvcd__above((double)f.errors[i] * by + rounding + worst);
-    slab.low = (float)((double)slab.low * by - rounding);
-    slab.high = (float)((double)slab.high * by + rounding);
-    slab.across = nsvcd__above((double)slab.across * by + rounding);
-    nsvcd__slab_store(slab, f.slabs, b->padded, i);
-  }
-  for (size_t i = 0; i < 3 * (size_t)f.counts->components; i++) f.seeds[i] *= scale;
-  nsvcd__scale_balls(&f, by);
-  nsvcd__geometry_finish(b, off_mesh > 0 ? nsvcd__above(off_mesh) : 0);
-}
-
-NSVCDDEF nsvcd_result nsvcd_body_scale(const nsvcd_body *body, float scale, void *memory,
-                                       size_t capacity, const nsvcd_body **scaled) {
-  if (!memory || !scaled) return NSVCD_ERROR_ARGUMENT;
-  const nsvcd_result result = nsvcd__body_check(body, SIZE_MAX);
-  if (result) return result;
-  if (!nsvcd__is_finite(scale) || scale <= 0) return NSVCD_ERROR_SCALE;
-  if (capacity < body->size || !nsvcd__is_aligned(memory)) return NSVCD_ERROR_WORKSPACE;
-  // else the triangles would keep their size, and loading did not check them
-  if (!NSVCD__PROOF && body->triangles) return NSVCD_ERROR_TRIANGLES;
-  const float radius = nsvcd__whole_radius(body);
-  if (!nsvcd__spheres_fit(body, radius, scale)) return NSVCD_ERROR_SCALE;
-  const double most = (double)NSVCD__MAX_LENGTH / (double)scale;
-  const size_t numbers = body->weights_id ? 3 * nsvcd__area_slots(body->padded) : 0;
-  for (size_t i = 0; i < numbers; i++) {
-    if (fabs((double)nsvcd__body_areas(body)[i]) > most * most) return NSVCD_ERROR_SCALE;
-  }
-  const nsvcd_body *triangles = nsvcd__triangles_of(body);
-  if (triangles && !nsvcd__spheres_fit(triangles, radius, scale)) return NSVCD_ERROR_SCALE;
-  // may be in place
-  memmove(memory, body, body->size);
-  nsvcd_body *b = (nsvcd_body *)memory;
-  void *inner = (char *)memory + b->inner;
-  if (triangles) nsvcd__scale_triangles((nsvcd_body *)inner, scale);
-  if (b->weights_id) nsvcd__scale_latents(b, scale);
-  *scaled = b;
   return NSVCD_OK;
 }
 

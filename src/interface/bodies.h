@@ -185,20 +185,30 @@ NSVCDDEF nsvcd_result nsvcd_body_load(const void *memory, size_t size,
 NSVCDDEF nsvcd_result nsvcd_body_trust(const void *memory, size_t size,
                                        const nsvcd_body **body);
 
-// Writes a copy of a body, scaled about its origin: for a planner, or to bake it. A question needs
-// no such copy, since a mover has a scale. Latents do not depend on scale, and answers scale along,
-// up to rounding.
+// Writes a copy of a body, scaled about its origin by a factor for each axis: for a prop that is
+// placed in several sizes, for a planner, or to bake it. A question needs no copy of one that is
+// scaled as a whole, since a mover has a scale. Latents do not depend on such a scale, and answers
+// scale along, up to rounding.
+//
+// Factors that differ stretch, and an odd number of negative ones mirrors, the mesh: verdicts are
+// about its vertices, each coordinate times its factor, rounded to float. Which components are
+// closed does not change. Latents are left out. Balls grow, and with them ball_error, so for looks
+// encode the stretched mesh; so too if factors differ a hundredfold, since then patches are long,
+// and questions take longer. A body with a convex radius would not be round any more, and is
+// refused.
 //   body       not NULL
-//   scale      > 0
+//   scale      (3) not NULL, not 0; all the same and > 0: as a whole
 //   memory     (capacity) bytes, as many as the body has or more, not NULL, aligned to
 //              NSVCD_ALIGNMENT; may be the body's own
 //   scaled     not NULL; set to the copy, or left as it was on failure
 //   allocates  nothing
 //   errors     ARGUMENT, BODY, VERSION, SCALE (also if the copy would be smaller or larger than a
-//              body may be), WORKSPACE, TRIANGLES (only with NSVCD_NO_PROOF, which cannot scale
-//              them)
-NSVCDDEF nsvcd_result nsvcd_body_scale(const nsvcd_body *body, float scale, void *memory,
-                                       size_t capacity, const nsvcd_body **scaled);
+//              body may be, or if factors differ for a body with a convex radius), WORKSPACE,
+//              TRIANGLES (factors differ and the body has none; or with NSVCD_NO_PROOF, which
+//              cannot scale them)
+NSVCDDEF nsvcd_result nsvcd_body_scale(const nsvcd_body *body, const float scale[3],
+                                       void *memory, size_t capacity,
+                                       const nsvcd_body **scaled);
 
 // What a body is. The mesh is the one that it was encoded from, in the body's frame.
 typedef struct nsvcd_body_facts {

@@ -17,6 +17,11 @@
 #include "../../examples/scenery/status_of.h"
 #include "meter.h"
 
+#define SCALE(factor) \
+  (const float[3]) { \
+    factor, factor, factor \
+  }
+
 enum { INIT, CUT, BEGIN, STEPS, PAIRS, INVARIANTS, TINY, BASE, BASE_INT8, INSIDE, ALL, STAGES };
 static const char *const names[STAGES] = {
     "poses checked",          "motion cut",
@@ -234,9 +239,9 @@ static void profile(const problem_file *file, size_t points) {
     const problem *p = &file->problems[i];
     question q = {NULL, NULL, file->poses + p->first_pose, &p->fixed_pose, p->count};
     nsvcd_answer answer;
-    nsvcd_body_scale((const nsvcd_body *)(bodies + p->moving * size), p->moving_scale,
+    nsvcd_body_scale((const nsvcd_body *)(bodies + p->moving * size), SCALE(p->moving_scale),
                      moving_memory, size, &q.moving);
-    nsvcd_body_scale((const nsvcd_body *)(bodies + p->fixed * size), p->fixed_scale, fixed_memory,
+    nsvcd_body_scale((const nsvcd_body *)(bodies + p->fixed * size), SCALE(p->fixed_scale), fixed_memory,
                      size, &q.fixed);
     for (size_t s = 0; s < STAGES; s++) one[s] = 1e9;
     for (int run = 0; run < 5; run++) run_stages(&q, work, one);
@@ -324,8 +329,8 @@ static void profile_proof(const problem_file *file, size_t points) {
   for (size_t i = 0; i < count; i++) {
     const problem *p = &file->problems[i];
     question q = {NULL, NULL, file->poses + p->first_pose, &p->fixed_pose, p->count};
-    nsvcd_body_scale(bodies[p->moving], p->moving_scale, moving_memory, size, &q.moving);
-    nsvcd_body_scale(bodies[p->fixed], p->fixed_scale, fixed_memory, size, &q.fixed);
+    nsvcd_body_scale(bodies[p->moving], SCALE(p->moving_scale), moving_memory, size, &q.moving);
+    nsvcd_body_scale(bodies[p->fixed], SCALE(p->fixed_scale), fixed_memory, size, &q.fixed);
     add_proof(&q, work, sums, &times[i]);
   }
   double mean = 0;

@@ -101,7 +101,14 @@ static void use(fuzz_input *in, const nsvcd_body *body) {
   void *memory = malloc(facts.size);
   if (!memory)
     exit(2);
-  if (!nsvcd_body_scale(body, scales[fuzz_choice(in, 6)], memory, facts.size, &scaled)) {
+  // as a whole, or along each axis by another factor, mirrored too
+  float by[3];
+  by[0] = by[1] = by[2] = scales[fuzz_choice(in, 6)];
+  if (fuzz_choice(in, 2)) {
+    by[1] = scales[fuzz_choice(in, 6)];
+    by[2] = -scales[fuzz_choice(in, 6)];
+  }
+  if (!nsvcd_body_scale(body, by, memory, facts.size, &scaled)) {
     scene_ask_about(in, other, scaled, &asked);
     scene_ask(&asked.question, &answer);
   }

@@ -88,7 +88,14 @@ static void check_body(fuzz_input *in, const nsvcd_mesh *mesh, const nsvcd_encod
   FUZZ_CHECK(!nsvcd_body_load(body, facts.size, &again));
   encode(mesh, options, -1, &again, &result);
   FUZZ_CHECK(!result && memcmp(again, body, facts.size) == 0);
-  if (!nsvcd_body_scale(body, scales[fuzz_choice(in, 4)], (void *)again, facts.size, &again))
+  // as a whole, or along each axis by another factor, mirrored too
+  float by[3];
+  by[0] = by[1] = by[2] = scales[fuzz_choice(in, 4)];
+  if (fuzz_choice(in, 2)) {
+    by[1] = scales[fuzz_choice(in, 4)];
+    by[2] = -scales[fuzz_choice(in, 4)];
+  }
+  if (!nsvcd_body_scale(body, by, (void *)again, facts.size, &again))
     FUZZ_CHECK(!nsvcd_body_load(again, facts.size, &again));
   nsvcd_body_free(again, NULL);
 }

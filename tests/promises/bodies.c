@@ -247,13 +247,47 @@ static void corners_that_nearly_meet_are_joined(void) {
   nsvcd_body_free(ball, NULL);
 }
 
+// By a factor for each axis, mirrored too: the bounds are those of the stretched box; latents stay
+// behind, and what has nothing else, or is round, is refused.
+static void a_body_is_stretched(void) {
+  const float factors[3] = {-2, 0.5f, 3};
+  nsvcd_mesh mesh = box_mesh(0.1f, 0.2f, 0.3f);
+  nsvcd_encode_options options = {0};
+  const nsvcd_body *both, *network, *round, *scaled = NULL;
+  const float half[3] = {1, 1, 1};
+  options.latents = 1;
+  CHECK_EQ(nsvcd_encode(&mesh, &options, NULL, NULL, 0, &both), NSVCD_OK);
+  options.no_triangles = 1;
+  CHECK_EQ(nsvcd_encode(&mesh, &options, NULL, NULL, 0, &network), NSVCD_OK);
+  CHECK_EQ(nsvcd_encode_box(half, 0.1f, NULL, &round), NSVCD_OK);
+  const size_t size = 1 << 18;
+  void *memory = malloc(size);
+  const nsvcd_body_facts before = nsvcd_body_describe(both);
+  CHECK_EQ(nsvcd_body_scale(both, factors, memory, size, &scaled), NSVCD_OK);
+  const nsvcd_body_facts after = nsvcd_body_describe(scaled);
+  for (int k = 0; k < 3; k++) {
+    const float low = factors[k] * (factors[k] < 0 ? before.high[k] : before.low[k]);
+    CHECK_NEAR(after.low[k], low, 1e-5);
+  }
+  CHECK(after.size < before.size && !after.latents);
+  CHECK_EQ(after.open_components, 0);
+  CHECK_EQ(nsvcd_body_load(memory, after.size, &scaled), NSVCD_OK);
+  CHECK_EQ(nsvcd_body_scale(network, factors, memory, size, &scaled), NSVCD_ERROR_TRIANGLES);
+  CHECK_EQ(nsvcd_body_scale(round, factors, memory, size, &scaled), NSVCD_ERROR_SCALE);
+  free(memory);
+  nsvcd_mesh_free(&mesh, NULL);
+  nsvcd_body_free(both, NULL);
+  nsvcd_body_free(network, NULL);
+  nsvcd_body_free(round, NULL);
+}
+
 static void a_scaled_body_is_that_of_the_scaled_mesh(void) {
   const nsvcd_body *small = box(0.1f, 0.2f, 0.3f);
   const nsvcd_body *large = box(0.2f, 0.4f, 0.6f);
   const size_t size = nsvcd_body_describe(small).size;
   void *memory = malloc(size + 8);
   const nsvcd_body *scaled = NULL;
-  CHECK_EQ(nsvcd_body_scale(small, 2, memory, size, &scaled), NSVCD_OK);
+  CHECK_EQ(nsvcd_body_scale(small, (const float[3]){2, 2, 2}, memory, size, &scaled), NSVCD_OK);
   CHECK_NEAR(nsvcd_body_describe(scaled).radius, nsvcd_body_describe(large).radius, 1e-5);
   // Each stops 1 mm before a post.
   const nsvcd_body *post = box(0.1f, 0.1f, 2);
@@ -262,13 +296,19 @@ static void a_scaled_body_is_that_of_the_scaled_mesh(void) {
   CHECK_EQ(verdict_of(&question), NSVCD_FREE);
   question.clearance = 0.0011f;
   CHECK_EQ(verdict_of(&question), NSVCD_HIT);
-  const float bad[5] = {0, -1, NAN, HUGE_VALF, 1e30f};
-  for (int k = 0; k < 5; k++)
-    CHECK_EQ(nsvcd_body_scale(small, bad[k], memory, size, &scaled), NSVCD_ERROR_SCALE);
-  CHECK_EQ(nsvcd_body_scale(small, 2, memory, size - 1, &scaled), NSVCD_ERROR_WORKSPACE);
-  CHECK_EQ(nsvcd_body_scale(small, 2, (char *)memory + 4, size, &scaled), NSVCD_ERROR_WORKSPACE);
-  CHECK_EQ(nsvcd_body_scale(small, 2, NULL, size, &scaled), NSVCD_ERROR_ARGUMENT);
-  CHECK_EQ(nsvcd_body_scale(NULL, 2, memory, size, &scaled), NSVCD_ERROR_ARGUMENT);
+  const float bad[4] = {0, NAN, HUGE_VALF, 1e30f};
+  for (int k = 0; k < 4; k++)
+    CHECK_EQ(
+        nsvcd_body_scale(small, (const float[3]){bad[k], bad[k], bad[k]}, memory, size, &scaled),
+        NSVCD_ERROR_SCALE);
+  CHECK_EQ(nsvcd_body_scale(small, (const float[3]){2, 2, 2}, memory, size - 1, &scaled),
+           NSVCD_ERROR_WORKSPACE);
+  CHECK_EQ(nsvcd_body_scale(small, (const float[3]){2, 2, 2}, (char *)memory + 4, size, &scaled),
+           NSVCD_ERROR_WORKSPACE);
+  CHECK_EQ(nsvcd_body_scale(small, (const float[3]){2, 2, 2}, NULL, size, &scaled),
+           NSVCD_ERROR_ARGUMENT);
+  CHECK_EQ(nsvcd_body_scale(NULL, (const float[3]){2, 2, 2}, memory, size, &scaled),
+           NSVCD_ERROR_ARGUMENT);
   CHECK((const void *)scaled == memory);
   free(memory);
   nsvcd_body_free(post, NULL);
@@ -403,6 +443,7 @@ void promises_bodies(void) {
   RUN(what_is_not_closed_is_told);
   RUN(corners_that_nearly_meet_are_joined);
   RUN(a_scaled_body_is_that_of_the_scaled_mesh);
+  RUN(a_body_is_stretched);
   RUN(round_shapes_are_as_far_apart_as_geometry_says);
   RUN(encoding_tells_how_much_is_done_and_can_be_cancelled);
   RUN(bodies_are_as_small_and_as_large_as_is_said);

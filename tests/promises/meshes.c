@@ -187,6 +187,45 @@ static void a_mesh_cut_at_a_box_is_all_of_it_that_is_within(void) {
   nsvcd_mesh_free(&floor, NULL);
 }
 
+static void a_hull_holds_its_points(void) {
+  float points[3 * 60];
+  nsvcd_mesh hull;
+  for (size_t i = 0; i < 60; i++) {
+    points[3 * i] = (float)(i % 5);
+    points[3 * i + 1] = (float)(i / 5 % 4);
+    points[3 * i + 2] = (float)(i / 20);
+  }
+  CHECK_EQ(nsvcd_mesh_hull(points, 60, NULL, &hull), NSVCD_OK);
+  CHECK_EQ(hull.vertex_count, 8);  // those of a box of 4 x 3 x 2
+  CHECK_EQ(hull.triangle_count, 12);
+  double area = 0;
+  for (size_t i = 0; i < hull.triangle_count; i++) area += fmax(area_from_above(&hull, i), 0);
+  CHECK_NEAR(area, 12, 1e-9);
+  nsvcd_mesh_free(&hull, NULL);
+  CHECK_EQ(nsvcd_mesh_hull(points, 20, NULL, &hull), NSVCD_ERROR_EMPTY);  // in a plane
+  points[7] = 2e6f;
+  CHECK_EQ(nsvcd_mesh_hull(points, 60, NULL, &hull), NSVCD_ERROR_NUMBER);
+  CHECK_EQ(nsvcd_mesh_hull(NULL, 60, NULL, &hull), NSVCD_ERROR_ARGUMENT);
+}
+
+static void heights_are_a_surface_with_holes(void) {
+  const float heights[3 * 4] = {0, 0, 1, NAN, 0, 0, 1, 1, 0, 0, 1, 1};
+  const float step[2] = {2, 1}, none[2] = {2, 0};
+  nsvcd_mesh mesh;
+  double area = 0;
+  CHECK_EQ(nsvcd_mesh_of_heights(heights, 3, 4, step, NULL, &mesh), NSVCD_OK);
+  CHECK_EQ(mesh.vertex_count, 11);
+  CHECK_EQ(mesh.triangle_count, 11);  // the corner is cut off
+  for (size_t i = 0; i < mesh.triangle_count; i++) {
+    CHECK(area_from_above(&mesh, i) > 0);
+    area += area_from_above(&mesh, i);
+  }
+  CHECK_NEAR(area, 6 * 2 - 1, 1e-9);
+  nsvcd_mesh_free(&mesh, NULL);
+  CHECK_EQ(nsvcd_mesh_of_heights(heights, 3, 4, none, NULL, &mesh), NSVCD_ERROR_SCALE);
+  CHECK_EQ(nsvcd_mesh_of_heights(heights, 1, 4, step, NULL, &mesh), NSVCD_ERROR_EMPTY);
+}
+
 // An allocator that has no more after so many.
 typedef struct little_memory {
   int left, given;
@@ -247,6 +286,8 @@ void promises_meshes(void) {
   RUN(a_file_is_read_as_its_text);
   RUN(faces_of_the_caller_are_cut_as_those_of_a_file);
   RUN(a_mesh_cut_at_a_box_is_all_of_it_that_is_within);
+  RUN(a_hull_holds_its_points);
+  RUN(heights_are_a_surface_with_holes);
   RUN(memory_that_runs_out_is_told_and_nothing_leaks);
 }
 

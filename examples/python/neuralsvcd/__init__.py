@@ -327,7 +327,7 @@ _PROTOTYPES = {
     "nsvcd_encode": (c_int, c_void_p, c_void_p, c_void_p, c_void_p, c_size_t, c_void_p),
     "nsvcd_body_free": (None, c_void_p, c_void_p),
     "nsvcd_body_load": (c_int, c_void_p, c_size_t, c_void_p),
-    "nsvcd_body_scale": (c_int, c_void_p, c_float, c_void_p, c_size_t, c_void_p),
+    "nsvcd_body_scale": (c_int, c_void_p, c_void_p, c_void_p, c_size_t, c_void_p),
     "nsvcd_body_describe": (_BodyFacts, c_void_p),
     "nsvcd_body_patch": (c_int, c_void_p, c_uint32, c_void_p, c_void_p),
     "nsvcd_sweep_workspace_size": (c_size_t, c_void_p),
@@ -809,7 +809,7 @@ class Body:
         memory = _memory(len(self._memory))
         scaled = c_void_p()
         factor = _number(c_float, scale, "scale")
-        _check(_library.nsvcd_body_scale(self._address, factor, _address(memory), len(memory), byref(scaled)))
+        _check(_library.nsvcd_body_scale(self._address, (c_float * 3)(factor, factor, factor), _address(memory), len(memory), byref(scaled)))
         body = Body.__new__(Body)
         body._keep(memory)
         return body
