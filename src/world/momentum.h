@@ -103,8 +103,7 @@ static void nsvcd__momentum_begin(const nsvcd__crowd *crowd, nsvcd_world_mover *
     if (!(c->impulse > 0)) continue;
     at->contact = c;
     at->own = nsvcd__hold_of(crowd, m->id, &p->thing, &c->contact);
-    at->own.pushed = mass * (double)c->impulse;
-    at->own.least = nsvcd__speed_along(&p->thing, &at->own);
+    at->own.least = nsvcd__min(nsvcd__speed_along(&p->thing, &at->own), 0);
     at->with = NSVCD_WORLD_CONTACTS;
     p->count++;
     if (!met || !(met->how.mass > 0) || crowd->world->residents[met->id].is_driven) continue;
@@ -118,6 +117,7 @@ static void nsvcd__momentum_begin(const nsvcd__crowd *crowd, nsvcd_world_mover *
         nsvcd__speed_along(&p->things[j], &at->other) - nsvcd__speed_along(&came, &at->own);
     const int bounces = nears > NSVCD__BOUNCES;
     at->own.least = bounces ? (double)m->how.restitution * nears : 0;
+    at->own.pushed = mass * (double)c->impulse;
     at->with = j;
     p->met[j] = met;
     if (j == p->met_count) p->met_count++;
@@ -173,10 +173,13 @@ static void nsvcd__share_momentum(const nsvcd__crowd *crowd, nsvcd_world_mover *
        round++)
     change = nsvcd__momentum_round(&p);
   nsvcd__tell_velocity(&p.thing, &m->velocity);
-  for (size_t k = 0; k < p.count; k++)
-    p.encounters[k].contact->impulse = (float)(p.encounters[k].own.pushed / mass);
+  for (size_t k = 0; k < p.count; k++) {
+    const nsvcd__encounter *at = &p.encounters[k];
+    const double held = at->with < p.met_count ? 0 : (double)at->contact->impulse;
+    at->contact->impulse = (float)(held + at->own.pushed / mass);
+  }
   for (size_t j = 0; j < p.met_count; j++) {
     nsvcd__tell_velocity(&p.things[j], &p.met[j]->velocity);
-    nsvcd__wake(p.met[j]);
+    if (p.met[j]->asleep) nsvcd__wake(p.met[j]);
   }
 }
