@@ -2749,6 +2749,12 @@ NSVCDDEF nsvcd_result nsvcd_world_slide(nsvcd_world *world, size_t id,
 // Not all movers that are met take part. A body on a pile presses on it by gravity in each frame,
 // and if that were handed on, nothing would come to rest: what meets no faster than two frames of
 // gravity along the normal, holds. What sleeps takes part only if it is hit hard enough to wake.
+//
+// A slide tells where it met what, not how it stood then. So the sum may have more energy than there
+// was before: then all changes are halved until it has not, which keeps the momentum too.
+
+// of a change that would gain energy: less is none
+#define NSVCD__LEAST_SHARE 0.05
 
 // What is the same for all movers of a step.
 typedef struct nsvcd__crowd {
@@ -2800,6 +2806,8 @@ static nsvcd__hold nsvcd__hold_of(const nsvcd__crowd *crowd, size_t id,
   memset(&out, 0, sizeof out);
   out.normal = nsvcd__d3_load(contact->normal);
   out.arm = nsvcd__d3_sub(nsvcd__d3_load(contact->point), pivot);
+  // who has gone on since keeps its spin
+  if (nsvcd__d3_norm(out.arm) > 1.1 * r->shape.reach) out.arm = nsvcd__d3_of(0, 0, 0);
   out.give = nsvcd__give_of(thing, out.arm, out.normal, &out.turn);
   return out;
 }
@@ -2891,6 +2899,35 @@ static void nsvcd__tell_velocity(const nsvcd__thing *thing, nsvcd_velocity *velo
   }
 }
 
+// Joules.
+static double nsvcd__energy_of(const nsvcd__thing *thing) {
+  const nsvcd__d3 own = nsvcd__dmat3_apply_transpose(&thing->axes, thing->angular);
+  const nsvcd__d3 inverse = thing->inverse_inertia;
+  double twice = nsvcd__d3_dot(thing->linear, thing->linear) / thing->inverse_mass;
+  for (size_t k = 0; k < 3; k++) {
+    const double spin = nsvcd__d3_axis(own, k);
+    if (nsvcd__d3_axis(inverse, k) > 0) twice += spin * spin / nsvcd__d3_axis(inverse, k);
+  }
+  return 0.5 * twice;
+}
+static double nsvcd__energy_of_all(const nsvcd__momentum *p) {
+  double out = nsvcd__energy_of(&p->thing);
+  for (size_t j = 0; j < p->met_count; j++) out += nsvcd__energy_of(&p->things[j]);
+  return out;
+}
+
+static void nsvcd__set_velocity(nsvcd__thing *thing, const nsvcd_velocity *velocity) {
+  thing->linear = nsvcd__d3_load(velocity->linear);
+  thing->angular = nsvcd__d3_load(velocity->angular);
+}
+// Takes a speed half way back to what it was.
+static void nsvcd__halve_change(nsvcd__thing *thing, const nsvcd_velocity *was) {
+  const nsvcd__thing now = *thing;
+  nsvcd__set_velocity(thing, was);
+  thing->linear = nsvcd__d3_mix(thing->linear, now.linear, 0.5);
+  thing->angular = nsvcd__d3_mix(thing->angular, now.angular, 0.5);
+}
+
 // A body has slid, and came at a speed: it and what it met share their momentum.
 static void nsvcd__share_momentum(const nsvcd__crowd *crowd, nsvcd_world_mover *m,
                                   const nsvcd_velocity *came) {
@@ -2901,6 +2938,10 @@ static void nsvcd__share_momentum(const nsvcd__crowd *crowd, nsvcd_world_mover *
   if (!(mass > 0) || m->answer.rests) return;
   nsvcd__momentum_begin(crowd, m, came, &p);
   if (p.met_count == 0) return;
+  const nsvcd__thing slid = p.thing;
+  nsvcd__set_velocity(&p.thing, came);
+  const double energy = nsvcd__energy_of_all(&p);
+  p.thing = slid;
   for (size_t k = 0; k < p.count; k++) {
     const nsvcd__encounter *at = &p.encounters[k];
     most = nsvcd__max(most, at->own.pushed);
@@ -2909,11 +2950,18 @@ static void nsvcd__share_momentum(const nsvcd__crowd *crowd, nsvcd_world_mover *
   for (int round = 0; round < NSVCD__IMPULSE_ROUNDS && change > NSVCD__IMPULSE_SAME * most;
        round++)
     change = nsvcd__momentum_round(&p);
+  double share = 1;
+  for (; nsvcd__energy_of_all(&p) > energy; share *= 0.5) {
+    if (share < NSVCD__LEAST_SHARE) return;
+    nsvcd__halve_change(&p.thing, came);
+    for (size_t j = 0; j < p.met_count; j++)
+      nsvcd__halve_change(&p.things[j], &p.met[j]->velocity);
+  }
   nsvcd__tell_velocity(&p.thing, &m->velocity);
   for (size_t k = 0; k < p.count; k++) {
     const nsvcd__encounter *at = &p.encounters[k];
     const double held = at->with < p.met_count ? 0 : (double)at->contact->impulse;
-    at->contact->impulse = (float)(held + at->own.pushed / mass);
+    at->contact->impulse = (float)(held + share * at->own.pushed / mass);
   }
   for (size_t j = 0; j < p.met_count; j++) {
     nsvcd__tell_velocity(&p.things[j], &p.met[j]->velocity);
