@@ -286,12 +286,13 @@ typedef struct nsvcd_step_answer {
 // What is proven is proven as of slides: no two bodies overlap, if none did. The rest is physics:
 //   A mover that is driven (nsvcd_world_drive) goes where it is driven, for that frame, as one that
 // nothing stops, and its velocity is left alone.
-//   What two bodies give each other keeps their momentum along the normal. The speed that gravity
-// gives in two frames is not exchanged, or no pile would come to rest: such contacts only hold.
+//   What two bodies give each other keeps their momentum along the normal, and gains no energy.
+// What nears no faster than gravity speeds it up in two frames, or, unless it is a character, than
+// twice `quiet`, gives nothing, or no pile would come to rest: such contacts only hold.
 //   What has a friction is braked where it touches: it loses 0.3 of its speed a second, 1.2 of its
 // spin, and 10 of both while it is nearly quiet.
-//   What sleeps wakes when it is hit faster than `quiet`, when what it touches is moved, removed or
-// faster than that, and when something is driven near it. Who is put to sleep before its first
+//   What sleeps wakes when it is given something, when what it touches is moved, removed or faster
+// than `quiet`, and when something is driven near it. Who is put to sleep before its first
 // frame is woken by all of these but what it touches, which nobody knows.
 NSVCDDEF nsvcd_result nsvcd_world_step(nsvcd_world *world, nsvcd_world_mover *movers,
                                        size_t count, const nsvcd_step_options *options,

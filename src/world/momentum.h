@@ -8,11 +8,11 @@
 // with all else hold what they held.
 //
 // Not all movers that are met take part. A body on a pile presses on it by gravity in each frame,
-// and if that were handed on, nothing would come to rest: what meets no faster than two frames of
-// gravity along the normal, holds. What sleeps takes part only if it is hit hard enough to wake.
+// and if that were handed on, nothing would come to rest: what nears no faster than two frames of
+// gravity along the normal, or than twice `quiet`, holds. A character is held to the first alone.
 //
-// A slide tells where it met what, not how it stood then. So the sum may have more energy than there
-// was before: then all changes are halved until it has not, which keeps the momentum too.
+// A slide tells where it met what, not how it stood then. So in sum there may be more energy than
+// before: then all changes are halved until there is not, which keeps the momentum too.
 #pragma once
 #include "slide.h"
 
@@ -85,14 +85,14 @@ static void nsvcd__push(nsvcd__thing *thing, const nsvcd__hold *hold, double imp
 }
 
 // Does a mover take part in a contact? came: the body before its slide.
-static int nsvcd__takes_part(const nsvcd__crowd *crowd, const nsvcd__thing *came,
-                             const nsvcd__encounter *at, const nsvcd_world_mover *met,
+static int nsvcd__takes_part(const nsvcd__crowd *crowd, const nsvcd_world_mover *m,
+                             const nsvcd__thing *came, const nsvcd__encounter *at,
                              const nsvcd__thing *thing) {
   const double falls = 2 * fabs(nsvcd__d3_dot(crowd->falls, at->own.normal));
-  const double goes = -nsvcd__speed_along(came, &at->own);
-  const double nears = goes + nsvcd__speed_along(thing, &at->other);
-  if (met->asleep) return nears > nsvcd__max(falls, crowd->quiet);
-  return nsvcd__max(goes, nears) > falls;
+  const double least = m->how.mass > 0 ? 2 * crowd->quiet : 0;
+  const double nears =
+      nsvcd__speed_along(thing, &at->other) - nsvcd__speed_along(came, &at->own);
+  return nears > nsvcd__max(falls, least);
 }
 
 // Finds the contacts that pushed in a slide, and who takes part in them.
@@ -120,7 +120,7 @@ static void nsvcd__momentum_begin(const nsvcd__crowd *crowd, nsvcd_world_mover *
     const nsvcd_pose *there = &crowd->world->residents[met->id].given.pose;
     if (j == p->met_count) p->things[j] = nsvcd__thing_of(&met->how, there, &met->velocity);
     at->other = nsvcd__hold_of(crowd, met->id, &p->things[j], &c->contact);
-    if (!nsvcd__takes_part(crowd, &came, at, met, &p->things[j])) continue;
+    if (!nsvcd__takes_part(crowd, m, &came, at, &p->things[j])) continue;
     const double nears =
         nsvcd__speed_along(&p->things[j], &at->other) - nsvcd__speed_along(&came, &at->own);
     const int bounces = nears > NSVCD__BOUNCES;
