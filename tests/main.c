@@ -49,6 +49,7 @@ void test_looks(void);
 void test_contacts(void);
 void test_world(void);
 void test_slide(void);
+void test_step(void);
 void test_proof(void);
 void test_fits(void);
 void test_asks(void);
@@ -121,6 +122,7 @@ static const test_file files[] = {
     OF(contacts),
     OF(world),
     OF(slide),
+    OF(step),
     OF(proof),
     OF(fits),
     OF(asks),
