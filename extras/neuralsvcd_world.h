@@ -336,7 +336,7 @@ typedef struct nsvcd_step_answer {
 //   A mover that is driven (nsvcd_world_drive) goes where it is driven, for that frame, as one that
 // nothing stops, and its velocity is left alone.
 //   What two bodies give each other keeps their momentum along the normal, and gains no energy.
-// What nears no faster than gravity speeds it up in two frames, or, unless it is a character, than
+// What goes there no faster than gravity speeds it up in two frames, or, unless it is a character, than
 // twice `quiet`, gives nothing, or no pile would come to rest: such contacts only hold.
 //   What has a friction is braked where it touches: it loses 0.3 of its speed a second, 1.2 of its
 // spin, and 10 of both while it is nearly quiet.
@@ -2748,7 +2748,7 @@ NSVCDDEF nsvcd_result nsvcd_world_slide(nsvcd_world *world, size_t id,
 // with all else hold what they held.
 //
 // Not all movers that are met take part. A body on a pile presses on it by gravity in each frame,
-// and if that were handed on, nothing would come to rest: what nears no faster than two frames of
+// and if that were handed on, nothing would come to rest: what goes there no faster than two frames of
 // gravity along the normal, or than twice `quiet`, holds. A character is held to the first alone.
 //
 // A slide tells where it met what, not how it stood then. So in sum there may be more energy than
@@ -2756,6 +2756,8 @@ NSVCDDEF nsvcd_result nsvcd_world_slide(nsvcd_world *world, size_t id,
 
 // of a change that would gain energy: less is none
 #define NSVCD__LEAST_SHARE 0.05
+// relative: rounding
+#define NSVCD__ENERGY_SAME 1e-6
 
 // What is the same for all movers of a step.
 typedef struct nsvcd__crowd {
@@ -2828,9 +2830,9 @@ static int nsvcd__takes_part(const nsvcd__crowd *crowd, const nsvcd_world_mover 
                              const nsvcd__thing *thing) {
   const double falls = 2 * fabs(nsvcd__d3_dot(crowd->falls, at->own.normal));
   const double least = m->how.mass > 0 ? 2 * crowd->quiet : 0;
-  const double nears =
-      nsvcd__speed_along(thing, &at->other) - nsvcd__speed_along(came, &at->own);
-  return nears > nsvcd__max(falls, least);
+  const double goes = -nsvcd__speed_along(came, &at->own);
+  const double nears = goes + nsvcd__speed_along(thing, &at->other);
+  return nsvcd__max(goes, nears) > nsvcd__max(falls, least);
 }
 
 // Finds the contacts that pushed in a slide, and who takes part in them.
@@ -2941,7 +2943,7 @@ static void nsvcd__share_momentum(const nsvcd__crowd *crowd, nsvcd_world_mover *
   if (p.met_count == 0) return;
   const nsvcd__thing slid = p.thing;
   nsvcd__set_velocity(&p.thing, came);
-  const double energy = nsvcd__energy_of_all(&p);
+  const double energy = (1 + NSVCD__ENERGY_SAME) * nsvcd__energy_of_all(&p);
   p.thing = slid;
   for (size_t k = 0; k < p.count; k++) {
     const nsvcd__encounter *at = &p.encounters[k];
@@ -3187,8 +3189,11 @@ NSVCDDEF nsvcd_result nsvcd_world_step(nsvcd_world *world, nsvcd_world_mover *mo
   if (answer) answer->refused = out.refused;
   if (result) return result;
   nsvcd__sort_turns(&crowd);
-  for (size_t k = 0; k < count; k++)
-    if (movers[k].asleep && nsvcd__is_disturbed(&crowd, &movers[k])) nsvcd__wake(&movers[k]);
+  for (size_t k = 0; k < count; k++) {
+    nsvcd_world_mover *m = &movers[k];
+    const int was_woken = !m->asleep && (double)m->calm >= crowd.calm;
+    if (was_woken || (m->asleep && nsvcd__is_disturbed(&crowd, m))) nsvcd__wake(m);
+  }
   nsvcd__wake_near_driven(&crowd);
   for (size_t k = 0; k < count; k++) {
     nsvcd_world_mover *m = &movers[world->turns[k].mover];

@@ -156,7 +156,7 @@ static void a_crowd_gains_no_energy(void) {
     for (int f = 0; f < 60; f++) {
       step(&s, m, CROWD, &space);
       const double now = energy_of(m, CROWD);
-      CHECK_LE(now, energy * (1 + 1e-5));
+      CHECK_LE(now, energy * (1 + 1e-4));
       energy = now;
       if (f % 20 == 19) keep_apart(&s, m, CROWD);
     }
@@ -171,19 +171,19 @@ static void what_sleeps_wakes(void) {
     stage s = stage_begin();
     const size_t floor = add_floor(&s);
     nsvcd_world_mover m[3] = {add_cube(&s, 0, 0, 0.252, 1, 1), add_cube(&s, 0, 0, 0.754, 1, 1),
-                              add_cube(&s, 4, 0, 0.252, 1, 1)};
+                              add_cube(&s, 2, 0, 0.252, 1, 1)};
     size_t count = 2;
     for (int f = 0; f < 60; f++) step(&s, m, 2, &earth);
     CHECK(m[0].asleep && m[1].asleep);
     const nsvcd_pose was = stage_pose(&s, m[1].id);
     const nsvcd_pose lower = pose_of(0, 0, -0.9);
     const nsvcd_pose aside = pose_of(3, 3, 0.2512);
-    const nsvcd_pose lifted = pose_of(0, 0, -0.45);
+    const nsvcd_pose lowered = pose_of(0, 0, -0.55);
     if (how == 0) stage_remove(&s, floor);
     if (how == 1) CHECK_EQ(nsvcd_world_move(s.world, floor, &lower), NSVCD_OK);
     if (how == 2) CHECK_EQ(nsvcd_world_move(s.world, m[0].id, &aside), NSVCD_OK);
-    if (how == 3) CHECK_EQ(nsvcd_world_drive(s.world, floor, &lifted), NSVCD_OK);
-    if (how == 4) m[1].velocity.linear[2] = 1;
+    if (how == 3) CHECK_EQ(nsvcd_world_drive(s.world, floor, &lowered), NSVCD_OK);
+    if (how == 4) m[1].velocity.linear[2] = 3;
     if (how == 5) m[2].velocity.linear[0] = -20;
     if (how >= 5) count = 3;
     if (how == 6) m[0].asleep = 0;
@@ -338,6 +338,7 @@ static void bad_steps_are_refused(void) {
   // nobody at all, and the other way up, and without an answer
   CHECK_EQ(nsvcd_world_step(s.world, NULL, 0, NULL, FRAME, memory, size, NULL), NSVCD_OK);
   m[1].velocity.linear[0] = 0;
+  m[0].asleep = m[2].asleep = 0;
   const nsvcd_step_options up = {{0, 0, 9.81f}, 0, 0};
   for (int f = 0; f < 30; f++) step(&s, m, 3, &up);
   CHECK_GE(stage_pose(&s, m[0].id).position[2], 1);

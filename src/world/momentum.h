@@ -8,7 +8,7 @@
 // with all else hold what they held.
 //
 // Not all movers that are met take part. A body on a pile presses on it by gravity in each frame,
-// and if that were handed on, nothing would come to rest: what nears no faster than two frames of
+// and if that were handed on, nothing would come to rest: what goes there no faster than two frames of
 // gravity along the normal, or than twice `quiet`, holds. A character is held to the first alone.
 //
 // A slide tells where it met what, not how it stood then. So in sum there may be more energy than
@@ -18,6 +18,8 @@
 
 // of a change that would gain energy: less is none
 #define NSVCD__LEAST_SHARE 0.05
+// relative: rounding
+#define NSVCD__ENERGY_SAME 1e-6
 
 // What is the same for all movers of a step.
 typedef struct nsvcd__crowd {
@@ -90,9 +92,9 @@ static int nsvcd__takes_part(const nsvcd__crowd *crowd, const nsvcd_world_mover 
                              const nsvcd__thing *thing) {
   const double falls = 2 * fabs(nsvcd__d3_dot(crowd->falls, at->own.normal));
   const double least = m->how.mass > 0 ? 2 * crowd->quiet : 0;
-  const double nears =
-      nsvcd__speed_along(thing, &at->other) - nsvcd__speed_along(came, &at->own);
-  return nears > nsvcd__max(falls, least);
+  const double goes = -nsvcd__speed_along(came, &at->own);
+  const double nears = goes + nsvcd__speed_along(thing, &at->other);
+  return nsvcd__max(goes, nears) > nsvcd__max(falls, least);
 }
 
 // Finds the contacts that pushed in a slide, and who takes part in them.
@@ -203,7 +205,7 @@ static void nsvcd__share_momentum(const nsvcd__crowd *crowd, nsvcd_world_mover *
   if (p.met_count == 0) return;
   const nsvcd__thing slid = p.thing;
   nsvcd__set_velocity(&p.thing, came);
-  const double energy = nsvcd__energy_of_all(&p);
+  const double energy = (1 + NSVCD__ENERGY_SAME) * nsvcd__energy_of_all(&p);
   p.thing = slid;
   for (size_t k = 0; k < p.count; k++) {
     const nsvcd__encounter *at = &p.encounters[k];

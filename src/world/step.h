@@ -216,8 +216,11 @@ NSVCDDEF nsvcd_result nsvcd_world_step(nsvcd_world *world, nsvcd_world_mover *mo
   if (answer) answer->refused = out.refused;
   if (result) return result;
   nsvcd__sort_turns(&crowd);
-  for (size_t k = 0; k < count; k++)
-    if (movers[k].asleep && nsvcd__is_disturbed(&crowd, &movers[k])) nsvcd__wake(&movers[k]);
+  for (size_t k = 0; k < count; k++) {
+    nsvcd_world_mover *m = &movers[k];
+    const int was_woken = !m->asleep && (double)m->calm >= crowd.calm;
+    if (was_woken || (m->asleep && nsvcd__is_disturbed(&crowd, m))) nsvcd__wake(m);
+  }
   nsvcd__wake_near_driven(&crowd);
   for (size_t k = 0; k < count; k++) {
     nsvcd_world_mover *m = &movers[world->turns[k].mover];
