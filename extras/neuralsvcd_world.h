@@ -336,7 +336,7 @@ typedef struct nsvcd_step_answer {
 //   A mover that is driven (nsvcd_world_drive) goes where it is driven, for that frame, as one that
 // nothing stops, and its velocity is left alone.
 //   What two bodies give each other keeps their momentum along the normal, and gains no energy.
-// What goes there no faster than gravity speeds it up in two frames, or, unless it is a character, than
+// What comes no faster than gravity speeds it up in two frames, or, unless it is a character, than
 // twice `quiet`, gives nothing, or no pile would come to rest: such contacts only hold.
 //   What has a friction is braked where it touches: it loses 0.3 of its speed a second, 1.2 of its
 // spin, and 10 of both while it is nearly quiet.
@@ -2748,8 +2748,8 @@ NSVCDDEF nsvcd_result nsvcd_world_slide(nsvcd_world *world, size_t id,
 // with all else hold what they held.
 //
 // Not all movers that are met take part. A body on a pile presses on it by gravity in each frame,
-// and if that were handed on, nothing would come to rest: what goes there no faster than two frames of
-// gravity along the normal, or than twice `quiet`, holds. A character is held to the first alone.
+// and if that were handed on, nothing would come to rest: what comes no faster than two frames of
+// gravity along the normal, or than twice `quiet`, holds. For a character only the first counts.
 //
 // A slide tells where it met what, not how it stood then. So in sum there may be more energy than
 // before: then all changes are halved until there is not, which keeps the momentum too.

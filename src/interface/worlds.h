@@ -287,7 +287,7 @@ typedef struct nsvcd_step_answer {
 //   A mover that is driven (nsvcd_world_drive) goes where it is driven, for that frame, as one that
 // nothing stops, and its velocity is left alone.
 //   What two bodies give each other keeps their momentum along the normal, and gains no energy.
-// What goes there no faster than gravity speeds it up in two frames, or, unless it is a character, than
+// What comes no faster than gravity speeds it up in two frames, or, unless it is a character, than
 // twice `quiet`, gives nothing, or no pile would come to rest: such contacts only hold.
 //   What has a friction is braked where it touches: it loses 0.3 of its speed a second, 1.2 of its
 // spin, and 10 of both while it is nearly quiet.

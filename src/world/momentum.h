@@ -8,8 +8,8 @@
 // with all else hold what they held.
 //
 // Not all movers that are met take part. A body on a pile presses on it by gravity in each frame,
-// and if that were handed on, nothing would come to rest: what goes there no faster than two frames of
-// gravity along the normal, or than twice `quiet`, holds. A character is held to the first alone.
+// and if that were handed on, nothing would come to rest: what comes no faster than two frames of
+// gravity along the normal, or than twice `quiet`, holds. For a character only the first counts.
 //
 // A slide tells where it met what, not how it stood then. So in sum there may be more energy than
 // before: then all changes are halved until there is not, which keeps the momentum too.
