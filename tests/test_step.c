@@ -204,11 +204,17 @@ static void what_sleeps_wakes(void) {
 static void who_never_sleeps(void) {
   stage s = stage_begin();
   add_floor(&s);
-  nsvcd_world_mover m[2] = {add_cube(&s, 0, 0, 0.252, 1, 1), add_cube(&s, 2, 0, 3, 1, 1)};
-  m[0].sleepless = 1;
+  nsvcd_world_mover m[3] = {add_cube(&s, 0, 0, 0.252, 1, 1), add_cube(&s, 2, 0, 3, 1, 1),
+                            add_cube(&s, 0, 0, 0.754, 1, 1)};
+  m[0].sleepless = m[2].sleepless = 1;
   m[1].asleep = 1;
-  for (int f = 0; f < 60; f++) step(&s, m, 2, &earth);
-  CHECK_EQ(m[0].asleep, 0);
+  for (int f = 0; f < 60; f++) step(&s, m, 3, &earth);
+  // what lies on another does not press it on
+  for (int k = 0; k < 3; k += 2) {
+    CHECK_EQ(m[k].asleep, 0);
+    CHECK_EQ(m[k].answer.rests, 1);
+    CHECK_EQ(m[k].velocity.linear[2], 0);
+  }
   CHECK_EQ(m[1].asleep, 1);
   CHECK_EQ(stage_pose(&s, m[1].id).position[2], 3);
   stage_end(&s);
