@@ -568,7 +568,6 @@ step: sleeps on what falls|nsvcd__mover_speed(crowd, other) > crowd->quiet) retu
 step: what is driven slides|if (m->asleep \|\| crowd->world->residents[m->id].is_driven) return NSVCD_OK;|if (m->asleep) return NSVCD_OK;
 step: driven for good|const nsvcd_result arrives = nsvcd_world_arrive(world);|const nsvcd_result arrives = NSVCD_OK;
 step: nobody sleeps|m->asleep = 1;|
-step: gravity is handed on|return nsvcd__max(goes, nears) > nsvcd__max(falls, least);|return nsvcd__max(goes, nears) > 0;
 step: nothing is taken off|if (other) nsvcd__push(other, \&at->other, -more);|
 step: what is hit takes nothing|nsvcd__push(\&p.things[at->with], \&at->other, -at->own.pushed);|(void)0;
 step: energy from nowhere|for (; nsvcd__energy_of_all(\&p) > energy; share *= 0.5) {|for (; 0; share *= 0.5) {
