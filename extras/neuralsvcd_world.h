@@ -30,6 +30,9 @@
 //     ways            contacts, and ways as far as they are free
 //     walk            characters: grounds, walls and steps
 //     slide           a frame of a body
+//     momentum        what bodies that meet give each other
+//     step            a frame of all
+//     mass            the mass of a mesh
 //
 #ifndef NEURALSVCD_WORLD_H
 #define NEURALSVCD_WORLD_H
@@ -270,6 +273,102 @@ NSVCDDEF nsvcd_result nsvcd_world_slide(nsvcd_world *world, size_t id,
                                         const nsvcd_slide_options *options, float seconds,
                                         void *workspace, size_t workspace_size,
                                         nsvcd_velocity *velocity, nsvcd_slide_answer *answer);
+
+// A body that a step moves. Zero is the default of everything but `id`.
+typedef struct nsvcd_world_mover {
+  size_t id;
+  // how it slides
+  nsvcd_slide_options how;
+  // yours to change between two steps: what sleeps and is given a speed is awake
+  nsvcd_velocity velocity;
+  // kilograms: what a character pushes with; default 0: it pushes nothing. A character is whatever
+  // has no mass in `how`
+  float push_mass;
+  // a second: the share of its speed, and of its spin, that it loses everywhere
+  float damping, spin_damping;
+  // 1: it sleeps: it stays where it is, and costs nothing. Yours to read, set and clear
+  int asleep;
+  // 1: it never falls asleep. Nor do characters
+  int sleepless;
+  // seconds for which it has been quiet: the library's
+  float calm;
+  // of its last slide
+  nsvcd_slide_answer answer;
+} nsvcd_world_mover;
+
+// What acts on all movers of a step. Zero means the default.
+typedef struct nsvcd_step_options {
+  // metres a second squared; (0, 0, 0): there is none
+  float gravity[3];
+  // metres a second, default 0.15: what touches something, and of which no point is faster than
+  // that, falls asleep after so many seconds, default 0.1
+  float quiet, calm;
+} nsvcd_step_options;
+
+// What became of all movers in a frame.
+typedef struct nsvcd_step_answer {
+  // how many moved or could have, sleep at the end, and were caught
+  size_t awake, asleep, caught;
+  // of all slides
+  size_t contacts, questions, work;
+  // the body at fault, if something was refused; or nobody
+  size_t refused;
+} nsvcd_step_answer;
+
+// Moves bodies of a world for a frame, and ends it: each is given gravity and slides, the lowest
+// first, by its pivot and against gravity; what it hits has its part of the momentum then; who is
+// quiet for long enough falls asleep; and what is driven arrives.
+//   movers     (count), each of a body of its own; NULL if that is 0. In any order: what happens
+//              depends on it only between bodies of the same height, or without gravity
+//   options    NULL: the defaults
+//   seconds    of the frame
+//   answer     may be NULL. On failure only its `refused` is set, but with POSE all of it
+//   allocates  nothing
+//   threads    as nsvcd_world_move
+//   errors     those of nsvcd_world_slide; INDEX (`id` is no body's, a fixed body's, or there
+//              twice), VALUE (a gravity, a push mass or a damping), SPEED (`quiet` too), TIMES
+//              (`calm` too). They are found before anything moves, and then everything is as it
+//              was. But POSE (a body is about to leave the coordinates) is found then: that body
+//              stays where it is, and all others have moved
+//   source     sequential impulses (Catto 2006) for the pairs of a body and those that it met; this
+//              library
+//
+// What is proven is proven as of slides: no two bodies overlap, if none did. The rest is physics:
+//   A mover that is driven (nsvcd_world_drive) goes where it is driven, for that frame, as one that
+// nothing stops, and its velocity is left alone.
+//   What two bodies give each other keeps their momentum along the normal, and gains no energy.
+// What comes no faster than gravity speeds it up in two frames, or, unless it is a character, than
+// twice `quiet`, gives nothing, or no pile would come to rest: such contacts only hold.
+//   What has a friction is braked where it touches: it loses 0.3 of its speed a second, 1.2 of its
+// spin, and 10 of both while it is nearly quiet.
+//   What sleeps wakes when it is given something, when what it touches is moved, removed or faster
+// than `quiet`, and when something is driven near it. Who is put to sleep before its first
+// frame is woken by all of these but what it touches, which nobody knows.
+NSVCDDEF nsvcd_result nsvcd_world_step(nsvcd_world *world, nsvcd_world_mover *movers,
+                                       size_t count, const nsvcd_step_options *options,
+                                       float seconds, void *workspace, size_t workspace_size,
+                                       nsvcd_step_answer *answer);
+
+// A mesh as a solid of one density.
+typedef struct nsvcd_mass {
+  // cubic metres
+  float volume;
+  // the centre of mass: the pivot of what moves freely
+  float centre[3];
+  // square metres: moments of inertia about the axes of its frame through that centre, of a
+  // kilogram. Times the mass, and the scale squared, they are those of nsvcd_slide_options
+  float inertia[3];
+  // 1: the mesh is open, inside out or flat, and all of this is that of its box
+  int is_of_box;
+} nsvcd_mass;
+
+// Computes the mass properties of a mesh. Exact, to rounding, where it is closed; that is held
+// against what any closed surface adds up to. Of parts that overlap what they share counts twice.
+//   mesh, mass  not NULL; left as it was on failure
+//   allocates   nothing
+//   errors      ARGUMENT, INDEX, NUMBER, EMPTY
+//   source      integrals over the tetrahedra from a point to each triangle
+NSVCDDEF nsvcd_result nsvcd_mesh_mass(const nsvcd_mesh *mesh, nsvcd_mass *mass);
 #ifdef __cplusplus
 }
 #endif
@@ -1321,7 +1420,15 @@ typedef struct nsvcd__resident {
   // when it came to where it is, on the world's clock
   uint64_t moved;
   uint32_t next_free;
+  // which of a step's movers it was last
+  uint32_t mover;
 } nsvcd__resident;
+
+// One of a step's movers, and how high it is.
+typedef struct nsvcd__turn {
+  float height;
+  uint32_t mover;
+} nsvcd__turn;
 
 struct nsvcd_world {
   nsvcd__box_tree tree;
@@ -1333,6 +1440,9 @@ struct nsvcd_world {
   volatile uint32_t changes;
   // of all moves
   uint64_t clock;
+  // (most): the order of the last step, and of how many movers it is
+  nsvcd__turn *turns;
+  uint32_t turn_count;
 };
 
 static size_t nsvcd__world_layout(size_t most, char *base, nsvcd_world **world) {
@@ -1340,9 +1450,11 @@ static size_t nsvcd__world_layout(size_t most, char *base, nsvcd_world **world) 
   nsvcd_world *w = NSVCD__TAKE_ROWS(nsvcd_world, 1, base, &used);
   nsvcd__resident *residents = NSVCD__TAKE_ROWS(nsvcd__resident, most + 1, base, &used);
   nsvcd__branch *nodes = NSVCD__TAKE_ROWS(nsvcd__branch, 2 * most, base, &used);
+  nsvcd__turn *turns = NSVCD__TAKE_ROWS(nsvcd__turn, most, base, &used);
   if (w) {
     memset(w, 0, sizeof *w);
     w->residents = residents;
+    w->turns = turns;
     w->most = (uint32_t)most;
     nsvcd__tree_begin(&w->tree, nodes, w->most);
     *world = w;
@@ -2462,6 +2574,23 @@ static nsvcd_result nsvcd__slide_check(const nsvcd_slide_options *o, float secon
   return NSVCD_OK;
 }
 
+// A body as contacts see it: its speed, and what an impulse changes.
+static nsvcd__thing nsvcd__thing_of(const nsvcd_slide_options *given, const nsvcd_pose *pose,
+                                    const nsvcd_velocity *velocity) {
+  const nsvcd__dpose at = nsvcd__dpose_of(pose);
+  const float *inertia = given->inertia;
+  nsvcd__thing out;
+  out.linear = nsvcd__d3_load(velocity->linear);
+  out.angular = nsvcd__d3_load(velocity->angular);
+  out.inverse_mass = given->mass > 0 ? 1 / (double)given->mass : 1;
+  out.inverse_inertia = nsvcd__d3_of(inertia[0] > 0 ? 1 / (double)inertia[0] : 0,
+                                     inertia[1] > 0 ? 1 / (double)inertia[1] : 0,
+                                     inertia[2] > 0 ? 1 / (double)inertia[2] : 0);
+  out.axes = nsvcd__dtransform_of(&at).rotation;
+  out.friction = (double)given->friction;
+  return out;
+}
+
 static nsvcd_result nsvcd__slide_begin(const nsvcd_world *world, size_t id,
                                        const nsvcd_slide_options *given, float seconds,
                                        void *workspace, size_t size,
@@ -2487,17 +2616,7 @@ static nsvcd_result nsvcd__slide_begin(const nsvcd_world *world, size_t id,
   s->slope = given->slope > 0 ? (double)given->slope : NSVCD__USUAL_SLOPE;
   s->ask.question.clearance = (float)s->clearance;
   s->ask.question.to = (float)(NSVCD__STOPS_WITHIN * s->margin);
-  nsvcd__thing *thing = &s->thing;
-  const nsvcd__dpose pose = nsvcd__dpose_of(&s->pose);
-  const float *inertia = given->inertia;
-  thing->linear = nsvcd__d3_load(velocity->linear);
-  thing->angular = nsvcd__d3_load(velocity->angular);
-  thing->inverse_mass = given->mass > 0 ? 1 / (double)given->mass : 1;
-  thing->inverse_inertia = nsvcd__d3_of(inertia[0] > 0 ? 1 / (double)inertia[0] : 0,
-                                        inertia[1] > 0 ? 1 / (double)inertia[1] : 0,
-                                        inertia[2] > 0 ? 1 / (double)inertia[2] : 0);
-  thing->axes = nsvcd__dtransform_of(&pose).rotation;
-  thing->friction = (double)given->friction;
+  s->thing = nsvcd__thing_of(given, &s->pose, velocity);
   return NSVCD_OK;
 }
 
@@ -2636,6 +2755,585 @@ NSVCDDEF nsvcd_result nsvcd_world_slide(nsvcd_world *world, size_t id,
   out.clock = world->clock;
   nsvcd__tell_slide(&s, velocity, &out);
   *answer = out;
+  return NSVCD_OK;
+}
+
+// ---------------------------------------------------------------------------------- world/momentum
+// In: a body that has slid, and the movers that it met. Out: the speeds of all of them, each with
+// its part of the momentum.
+//
+// A slide's impulses are those of a body that meets what rests. Where that is a mover, it takes the
+// same impulse the other way, and both are then too fast apart. So, round after round, each contact
+// gives back what is too much, until its two bodies leave each other as restitution has them. What
+// one gains the other loses: momentum is kept, whether or not the rounds have converged. Contacts
+// with all else hold what they held.
+//
+// Not all movers that are met take part. A body on a pile presses on it by gravity in each frame,
+// and if that were handed on, nothing would come to rest: what comes no faster than two frames of
+// gravity along the normal, or than twice `quiet`, holds. For a character only the first counts.
+//
+// A slide tells where it met what, not how it stood then. So in sum there may be more energy than
+// before: then all changes are halved until there is not, which keeps the momentum too.
+
+// of a change that would gain energy: less is none
+#define NSVCD__LEAST_SHARE 0.05
+// relative: rounding
+#define NSVCD__ENERGY_SAME 1e-6
+
+// What is the same for all movers of a step.
+typedef struct nsvcd__crowd {
+  nsvcd_world *world;
+  nsvcd_world_mover *movers;
+  size_t count;
+  float seconds;
+  // what gravity adds to a speed in the frame
+  nsvcd__d3 falls;
+  // metres a second, seconds
+  double quiet, calm;
+} nsvcd__crowd;
+
+// The mover of a body, or NULL.
+static nsvcd_world_mover *nsvcd__mover_with(const nsvcd__crowd *crowd, size_t id) {
+  const nsvcd__resident *r = nsvcd__resident_of(crowd->world, id);
+  nsvcd_world_mover *m = r && r->mover < crowd->count ? &crowd->movers[r->mover] : NULL;
+  return m && m->id == id ? m : NULL;
+}
+
+static void nsvcd__wake(nsvcd_world_mover *m) {
+  m->asleep = 0;
+  m->calm = 0;
+}
+
+// A contact of the body with something, or with a mover that takes part.
+typedef struct nsvcd__encounter {
+  nsvcd_world_contact *contact;
+  nsvcd__hold own, other;
+  // of the movers that take part; or none
+  size_t with;
+} nsvcd__encounter;
+
+typedef struct nsvcd__momentum {
+  nsvcd__thing thing;
+  size_t count, met_count;
+  nsvcd__encounter encounters[NSVCD_WORLD_CONTACTS];
+  // the movers that take part
+  nsvcd_world_mover *met[NSVCD_WORLD_CONTACTS];
+  nsvcd__thing things[NSVCD_WORLD_CONTACTS];
+} nsvcd__momentum;
+
+// A contact as one of its bodies sees it. It is told the point as it is on the other body.
+static nsvcd__hold nsvcd__hold_of(const nsvcd__crowd *crowd, size_t id,
+                                  const nsvcd__thing *thing, const nsvcd_contact *contact) {
+  const nsvcd__resident *r = &crowd->world->residents[id];
+  const nsvcd__d3 pivot = nsvcd__pivot_of(&r->given.pose, r->shape.pivot);
+  nsvcd__hold out;
+  memset(&out, 0, sizeof out);
+  out.normal = nsvcd__d3_load(contact->normal);
+  out.arm = nsvcd__d3_sub(nsvcd__d3_load(contact->point), pivot);
+  // who has gone on since keeps its spin
+  if (nsvcd__d3_norm(out.arm) > 1.1 * r->shape.reach) out.arm = nsvcd__d3_of(0, 0, 0);
+  out.give = nsvcd__give_of(thing, out.arm, out.normal, &out.turn);
+  return out;
+}
+
+static double nsvcd__speed_along(const nsvcd__thing *thing, const nsvcd__hold *hold) {
+  return nsvcd__d3_dot(nsvcd__speed_at(thing, hold->arm), hold->normal);
+}
+
+static void nsvcd__push(nsvcd__thing *thing, const nsvcd__hold *hold, double impulse) {
+  thing->linear = nsvcd__d3_fma(impulse * thing->inverse_mass, hold->normal, thing->linear);
+  thing->angular = nsvcd__d3_fma(impulse, hold->turn, thing->angular);
+}
+
+// Does a mover take part in a contact? came: the body before its slide.
+static int nsvcd__takes_part(const nsvcd__crowd *crowd, const nsvcd_world_mover *m,
+                             const nsvcd__thing *came, const nsvcd__encounter *at,
+                             const nsvcd__thing *thing) {
+  const double falls = 2 * fabs(nsvcd__d3_dot(crowd->falls, at->own.normal));
+  const double least = m->how.mass > 0 ? 2 * crowd->quiet : 0;
+  const double goes = -nsvcd__speed_along(came, &at->own);
+  const double nears = goes + nsvcd__speed_along(thing, &at->other);
+  return nsvcd__max(goes, nears) > nsvcd__max(falls, least);
+}
+
+// Finds the contacts that pushed in a slide, and who takes part in them.
+static void nsvcd__momentum_begin(const nsvcd__crowd *crowd, nsvcd_world_mover *m,
+                                  const nsvcd_velocity *velocity, nsvcd__momentum *p) {
+  const double mass = m->how.mass > 0 ? 1 : (double)m->push_mass;
+  const nsvcd_pose *pose = &m->answer.pose;
+  nsvcd__thing came = nsvcd__thing_of(&m->how, pose, velocity);
+  p->thing = nsvcd__thing_of(&m->how, pose, &m->velocity);
+  came.inverse_mass = p->thing.inverse_mass /= mass;
+  p->count = p->met_count = 0;
+  for (size_t k = 0; k < m->answer.contact_count; k++) {
+    nsvcd_world_contact *c = &m->answer.contacts[k];
+    nsvcd_world_mover *met = nsvcd__mover_with(crowd, c->body);
+    nsvcd__encounter *at = &p->encounters[p->count];
+    if (!(c->impulse > 0)) continue;
+    at->contact = c;
+    at->own = nsvcd__hold_of(crowd, m->id, &p->thing, &c->contact);
+    at->own.least = nsvcd__min(nsvcd__speed_along(&p->thing, &at->own), 0);
+    at->with = NSVCD_WORLD_CONTACTS;
+    p->count++;
+    if (!met || !(met->how.mass > 0) || crowd->world->residents[met->id].is_driven) continue;
+    size_t j = 0;
+    while (j < p->met_count && p->met[j] != met) j++;
+    const nsvcd_pose *there = &crowd->world->residents[met->id].given.pose;
+    if (j == p->met_count) p->things[j] = nsvcd__thing_of(&met->how, there, &met->velocity);
+    at->other = nsvcd__hold_of(crowd, met->id, &p->things[j], &c->contact);
+    if (!nsvcd__takes_part(crowd, m, &came, at, &p->things[j])) continue;
+    const double nears =
+        nsvcd__speed_along(&p->things[j], &at->other) - nsvcd__speed_along(&came, &at->own);
+    const int bounces = nears > NSVCD__BOUNCES;
+    at->own.least = bounces ? (double)m->how.restitution * nears : 0;
+    at->own.pushed = mass * (double)c->impulse;
+    at->with = j;
+    p->met[j] = met;
+    if (j == p->met_count) p->met_count++;
+  }
+}
+
+// Gives those who take part their impulses, and corrects these. Returns by how much at most.
+static double nsvcd__momentum_round(nsvcd__momentum *p) {
+  double change = 0;
+  for (size_t k = 0; k < p->count; k++) {
+    nsvcd__encounter *at = &p->encounters[k];
+    nsvcd__thing *other = at->with < p->met_count ? &p->things[at->with] : NULL;
+    const double theirs = other ? nsvcd__speed_along(other, &at->other) : 0;
+    const double lacks = at->own.least - nsvcd__speed_along(&p->thing, &at->own) + theirs;
+    const double give = at->own.give + (other ? at->other.give : 0);
+    const double more = nsvcd__max(lacks / give, -at->own.pushed);
+    at->own.pushed += more;
+    nsvcd__push(&p->thing, &at->own, more);
+    if (other) nsvcd__push(other, &at->other, -more);
+    change = nsvcd__max(change, fabs(more));
+  }
+  return change;
+}
+
+static void nsvcd__tell_velocity(const nsvcd__thing *thing, nsvcd_velocity *velocity) {
+  const float most = NSVCD_MAX_COORDINATE;
+  float *linear = velocity->linear;
+  float *angular = velocity->angular;
+  nsvcd__f3_store(nsvcd__f3_round(thing->linear), linear);
+  nsvcd__f3_store(nsvcd__f3_round(thing->angular), angular);
+  for (int k = 0; k < 3; k++) {
+    linear[k] = fmaxf(-most, fminf(linear[k], most));
+    angular[k] = fmaxf(-most, fminf(angular[k], most));
+  }
+}
+
+// Joules.
+static double nsvcd__energy_of(const nsvcd__thing *thing) {
+  const nsvcd__d3 own = nsvcd__dmat3_apply_transpose(&thing->axes, thing->angular);
+  const nsvcd__d3 inverse = thing->inverse_inertia;
+  double twice = nsvcd__d3_dot(thing->linear, thing->linear) / thing->inverse_mass;
+  for (size_t k = 0; k < 3; k++) {
+    const double spin = nsvcd__d3_axis(own, k);
+    if (nsvcd__d3_axis(inverse, k) > 0) twice += spin * spin / nsvcd__d3_axis(inverse, k);
+  }
+  return 0.5 * twice;
+}
+static double nsvcd__energy_of_all(const nsvcd__momentum *p) {
+  double out = nsvcd__energy_of(&p->thing);
+  for (size_t j = 0; j < p->met_count; j++) out += nsvcd__energy_of(&p->things[j]);
+  return out;
+}
+
+static void nsvcd__set_velocity(nsvcd__thing *thing, const nsvcd_velocity *velocity) {
+  thing->linear = nsvcd__d3_load(velocity->linear);
+  thing->angular = nsvcd__d3_load(velocity->angular);
+}
+// Takes a speed half way back to what it was.
+static void nsvcd__halve_change(nsvcd__thing *thing, const nsvcd_velocity *was) {
+  const nsvcd__thing now = *thing;
+  nsvcd__set_velocity(thing, was);
+  thing->linear = nsvcd__d3_mix(thing->linear, now.linear, 0.5);
+  thing->angular = nsvcd__d3_mix(thing->angular, now.angular, 0.5);
+}
+
+// A body has slid, and came at a speed: it and what it met share their momentum.
+static void nsvcd__share_momentum(const nsvcd__crowd *crowd, nsvcd_world_mover *m,
+                                  const nsvcd_velocity *came) {
+  nsvcd__momentum p;
+  double most = 0;
+  double change = 1;
+  const double mass = m->how.mass > 0 ? 1 : (double)m->push_mass;
+  if (!(mass > 0) || m->answer.rests) return;
+  nsvcd__momentum_begin(crowd, m, came, &p);
+  if (p.met_count == 0) return;
+  const nsvcd__thing slid = p.thing;
+  nsvcd__set_velocity(&p.thing, came);
+  const double energy = (1 + NSVCD__ENERGY_SAME) * nsvcd__energy_of_all(&p);
+  p.thing = slid;
+  for (size_t k = 0; k < p.count; k++) {
+    const nsvcd__encounter *at = &p.encounters[k];
+    most = nsvcd__max(most, at->own.pushed);
+    if (at->with < p.met_count) nsvcd__push(&p.things[at->with], &at->other, -at->own.pushed);
+  }
+  for (int round = 0; round < NSVCD__IMPULSE_ROUNDS && change > NSVCD__IMPULSE_SAME * most;
+       round++)
+    change = nsvcd__momentum_round(&p);
+  double share = 1;
+  for (; nsvcd__energy_of_all(&p) > energy; share *= 0.5) {
+    if (share < NSVCD__LEAST_SHARE) return;
+    nsvcd__halve_change(&p.thing, came);
+    for (size_t j = 0; j < p.met_count; j++)
+      nsvcd__halve_change(&p.things[j], &p.met[j]->velocity);
+  }
+  nsvcd__tell_velocity(&p.thing, &m->velocity);
+  for (size_t k = 0; k < p.count; k++) {
+    const nsvcd__encounter *at = &p.encounters[k];
+    const double held = at->with < p.met_count ? 0 : (double)at->contact->impulse;
+    at->contact->impulse = (float)(held + share * at->own.pushed / mass);
+  }
+  for (size_t j = 0; j < p.met_count; j++) {
+    nsvcd__tell_velocity(&p.things[j], &p.met[j]->velocity);
+    if (p.met[j]->asleep) nsvcd__wake(p.met[j]);
+  }
+}
+
+// -------------------------------------------------------------------------------------- world/step
+// In: movers of a world, and a time. Out: a frame of all of them: each has moved, or sleeps.
+//
+// The lowest moves first: what is to fall on something finds it where it will be. The order is kept
+// from frame to frame, in which it hardly changes.
+
+// metres a second; seconds
+#define NSVCD__USUAL_QUIET 0.15
+#define NSVCD__USUAL_CALM 0.1
+// what touches something, and is slower than so many times `quiet`, is nearly quiet
+#define NSVCD__NEARLY_QUIET 2.7
+// a second: how much of its speed, of its spin, and of both while it is nearly quiet, what touches
+// something loses
+#define NSVCD__BRAKES_SPEED 0.3
+#define NSVCD__BRAKES_SPIN 1.2
+#define NSVCD__BRAKES_QUIET 10.0
+
+// ---- what is asked for
+
+static nsvcd_result nsvcd__check_mover(const nsvcd__crowd *crowd, size_t k) {
+  const nsvcd_world_mover *m = &crowd->movers[k];
+  const nsvcd__resident *r = nsvcd__resident_of(crowd->world, m->id);
+  nsvcd_velocity falls = m->velocity;
+  if (!r || r->mover != k || r->given.fixed) return NSVCD_ERROR_INDEX;
+  if (!nsvcd__is_amount(m->push_mass) || !nsvcd__is_amount(m->damping) ||
+      !nsvcd__is_amount(m->spin_damping))
+    return NSVCD_ERROR_VALUE;
+  const nsvcd__d3 then = nsvcd__d3_add(nsvcd__d3_load(falls.linear), crowd->falls);
+  nsvcd__f3_store(nsvcd__d3_narrow(then), falls.linear);
+  const nsvcd_result result = nsvcd__slide_check(&m->how, crowd->seconds, &m->velocity);
+  return result ? result : nsvcd__slide_check(&m->how, crowd->seconds, &falls);
+}
+
+// Checks what is asked for, before anything moves. *refused: the body at fault.
+static nsvcd_result nsvcd__step_begin(nsvcd_world *world, nsvcd_world_mover *movers,
+                                      size_t count, const nsvcd_step_options *options,
+                                      float seconds, nsvcd__crowd *crowd, size_t *refused) {
+  const float *gravity = options->gravity;
+  if (world->changes & 1) return NSVCD_ERROR_WORLD;
+  if (!nsvcd__is_finite(seconds) || !(seconds > 0)) return NSVCD_ERROR_TIMES;
+  if (!nsvcd__is_amount(options->calm)) return NSVCD_ERROR_TIMES;
+  if (!nsvcd__is_amount(options->quiet)) return NSVCD_ERROR_SPEED;
+  if (!nsvcd__in_range(gravity, 3, NSVCD_MAX_COORDINATE)) return NSVCD_ERROR_VALUE;
+  if (count > world->most) return NSVCD_ERROR_INDEX;
+  crowd->world = world;
+  crowd->movers = movers;
+  crowd->count = count;
+  crowd->seconds = seconds;
+  crowd->falls = nsvcd__d3_scale(nsvcd__d3_load(gravity), (double)seconds);
+  crowd->quiet = options->quiet > 0 ? (double)options->quiet : NSVCD__USUAL_QUIET;
+  crowd->calm = options->calm > 0 ? (double)options->calm : NSVCD__USUAL_CALM;
+  for (size_t k = 0; k < count; k++) {
+    nsvcd__resident *r = nsvcd__resident_of(world, movers[k].id);
+    if (r) r->mover = (uint32_t)k;
+  }
+  for (size_t k = 0; k < count; k++) {
+    *refused = movers[k].id;
+    const nsvcd_result result = nsvcd__check_mover(crowd, k);
+    if (result) return result;
+  }
+  *refused = NSVCD_NOBODY;
+  return NSVCD_OK;
+}
+
+// ---- the order
+
+static int nsvcd__comes_before(nsvcd__turn a, nsvcd__turn b) {
+  if (a.height < b.height || a.height > b.height) return a.height < b.height;
+  return a.mover < b.mover;
+}
+
+// Sorts movers by their heights, and those of a height as they are numbered (Shell 1959).
+static void nsvcd__sort_turns(const nsvcd__crowd *crowd) {
+  nsvcd_world *world = crowd->world;
+  nsvcd__turn *turns = world->turns;
+  for (size_t k = 0; k < crowd->count && world->turn_count != crowd->count; k++)
+    turns[k].mover = (uint32_t)k;
+  world->turn_count = (uint32_t)crowd->count;
+  for (size_t k = 0; k < crowd->count; k++) {
+    const nsvcd__resident *r = &world->residents[crowd->movers[turns[k].mover].id];
+    const nsvcd__d3 at = nsvcd__pivot_of(&r->given.pose, r->shape.pivot);
+    turns[k].height = (float)-nsvcd__d3_dot(at, crowd->falls);
+  }
+  for (size_t gap = crowd->count; gap > 1;) {
+    gap = gap > 2 ? gap * 5 / 11 : 1;
+    for (size_t k = gap; k < crowd->count; k++) {
+      const nsvcd__turn turn = turns[k];
+      size_t n = k;
+      for (; n >= gap && nsvcd__comes_before(turn, turns[n - gap]); n -= gap)
+        turns[n] = turns[n - gap];
+      turns[n] = turn;
+    }
+  }
+}
+
+// ---- sleep
+
+// Metres a second that no point of a mover exceeds.
+static double nsvcd__mover_speed(const nsvcd__crowd *crowd, const nsvcd_world_mover *m) {
+  const double spin = nsvcd__d3_norm(nsvcd__d3_load(m->velocity.angular));
+  const double speed = nsvcd__d3_norm(nsvcd__d3_load(m->velocity.linear));
+  return speed + spin * crowd->world->residents[m->id].shape.reach;
+}
+
+// Has a body been moved since a mover's slide, and not by a slide of its own?
+static int nsvcd__was_moved(const nsvcd__crowd *crowd, size_t id, uint64_t since) {
+  const nsvcd__resident *r = nsvcd__resident_of(crowd->world, id);
+  const nsvcd_world_mover *m = nsvcd__mover_with(crowd, id);
+  return !r || (r->moved > since && (!m || r->moved > m->answer.clock));
+}
+
+// Is there something that a sleeping mover wakes by?
+static int nsvcd__is_disturbed(const nsvcd__crowd *crowd, const nsvcd_world_mover *m) {
+  const nsvcd_slide_answer *last = &m->answer;
+  if (nsvcd__mover_speed(crowd, m) > 0) return 1;
+  if (last->clock && nsvcd__was_moved(crowd, m->id, last->clock)) return 1;
+  for (size_t k = 0; k < last->contact_count && k < NSVCD_WORLD_CONTACTS; k++) {
+    const nsvcd_world_mover *other = nsvcd__mover_with(crowd, last->contacts[k].body);
+    if (nsvcd__was_moved(crowd, last->contacts[k].body, last->clock)) return 1;
+    if (other && other->how.mass > 0 && nsvcd__mover_speed(crowd, other) > crowd->quiet)
+      return 1;
+  }
+  return 0;
+}
+
+// Wakes whoever sleeps where something is driven.
+static void nsvcd__wake_near_driven(const nsvcd__crowd *crowd) {
+  nsvcd_world *world = crowd->world;
+  double within = 0;
+  for (size_t k = 0; k < crowd->count; k++) {
+    const nsvcd_slide_options *how = &crowd->movers[k].how;
+    const double usual =
+        NSVCD__USUAL_CLEARANCE * world->residents[crowd->movers[k].id].shape.reach;
+    const double clearance = how->clearance > 0 ? (double)how->clearance : usual;
+    const double margin = how->margin > 0 ? (double)how->margin : clearance;
+    within = nsvcd__max(within, clearance + 2 * margin);
+  }
+  for (uint32_t id = 1; id <= world->count; id++) {
+    const nsvcd__resident *r = nsvcd__resident_of(world, id);
+    if (!r || !r->is_driven) continue;
+    const nsvcd__box box = nsvcd__box_around(r->box, within);
+    for (uint32_t n = 0; (n = nsvcd__tree_next(&world->tree, n, &box)) != 0;) {
+      nsvcd_world_mover *m = nsvcd__mover_with(crowd, n);
+      if (m && m->asleep) nsvcd__wake(m);
+    }
+  }
+}
+
+// What was quiet for long enough falls asleep.
+static void nsvcd__grow_calm(const nsvcd__crowd *crowd, nsvcd_world_mover *m) {
+  const int is_quiet =
+      m->answer.contact_count > 0 && nsvcd__mover_speed(crowd, m) < crowd->quiet;
+  if (m->asleep || m->sleepless || !(m->how.mass > 0)) return;
+  m->calm = is_quiet ? m->calm + crowd->seconds : 0;
+  if ((double)m->calm < crowd->calm - 0.5 * (double)crowd->seconds) return;
+  m->asleep = 1;
+  memset(&m->velocity, 0, sizeof m->velocity);
+}
+
+// ---- a frame
+
+// Gives a mover what gravity adds to its speed, less what brakes it.
+static void nsvcd__pull_and_brake(const nsvcd__crowd *crowd, nsvcd_world_mover *m) {
+  const int is_braked = m->answer.contact_count > 0 && m->how.mass > 0 && m->how.friction > 0;
+  const int is_slow =
+      is_braked && nsvcd__mover_speed(crowd, m) < NSVCD__NEARLY_QUIET * crowd->quiet;
+  const double quiet = is_slow ? NSVCD__BRAKES_QUIET : 0;
+  const double speed = is_braked ? nsvcd__max(NSVCD__BRAKES_SPEED, quiet) : 0;
+  const double spin = is_braked ? nsvcd__max(NSVCD__BRAKES_SPIN, quiet) : 0;
+  const double seconds = (double)crowd->seconds;
+  const nsvcd__d3 linear = nsvcd__d3_add(nsvcd__d3_load(m->velocity.linear), crowd->falls);
+  const nsvcd__d3 angular = nsvcd__d3_load(m->velocity.angular);
+  nsvcd__thing thing;
+  memset(&thing, 0, sizeof thing);
+  thing.linear = nsvcd__d3_over(linear, 1 + seconds * (speed + (double)m->damping));
+  thing.angular = nsvcd__d3_over(angular, 1 + seconds * (spin + (double)m->spin_damping));
+  nsvcd__tell_velocity(&thing, &m->velocity);
+}
+
+static nsvcd_result nsvcd__step_mover(const nsvcd__crowd *crowd, nsvcd_world_mover *m,
+                                      void *workspace, size_t size, nsvcd_step_answer *out) {
+  if (m->asleep || crowd->world->residents[m->id].is_driven) return NSVCD_OK;
+  const nsvcd_velocity was = m->velocity;
+  nsvcd__pull_and_brake(crowd, m);
+  const nsvcd_velocity came = m->velocity;
+  const nsvcd_result result = nsvcd_world_slide(crowd->world, m->id, &m->how, crowd->seconds,
+                                                workspace, size, &m->velocity, &m->answer);
+  if (result) {
+    m->velocity = was;
+    return result;
+  }
+  nsvcd__share_momentum(crowd, m, &came);
+  out->awake++;
+  out->caught += m->answer.caught != NSVCD_NOBODY;
+  out->contacts += m->answer.contact_count;
+  out->questions += m->answer.questions;
+  out->work += m->answer.work;
+  return NSVCD_OK;
+}
+
+NSVCDDEF nsvcd_result nsvcd_world_step(nsvcd_world *world, nsvcd_world_mover *movers,
+                                       size_t count, const nsvcd_step_options *options,
+                                       float seconds, void *workspace, size_t workspace_size,
+                                       nsvcd_step_answer *answer) {
+  static const nsvcd_step_options usual = {{0, 0, 0}, 0, 0};
+  nsvcd__crowd crowd;
+  nsvcd_step_answer out;
+  if (!world || (count > 0 && !movers)) return NSVCD_ERROR_ARGUMENT;
+  const int has_workspace = workspace && nsvcd__is_aligned(workspace) &&
+                            workspace_size >= nsvcd_sweep_workspace_size(NULL);
+  memset(&out, 0, sizeof out);
+  nsvcd_result result = nsvcd__step_begin(world, movers, count, options ? options : &usual,
+                                          seconds, &crowd, &out.refused);
+  if (!result && !has_workspace) result = NSVCD_ERROR_WORKSPACE;
+  if (answer) answer->refused = out.refused;
+  if (result) return result;
+  nsvcd__sort_turns(&crowd);
+  for (size_t k = 0; k < count; k++) {
+    nsvcd_world_mover *m = &movers[k];
+    const int was_woken = !m->asleep && (double)m->calm >= crowd.calm;
+    if (was_woken || (m->asleep && nsvcd__is_disturbed(&crowd, m))) nsvcd__wake(m);
+  }
+  nsvcd__wake_near_driven(&crowd);
+  for (size_t k = 0; k < count; k++) {
+    nsvcd_world_mover *m = &movers[world->turns[k].mover];
+    const nsvcd_result said = nsvcd__step_mover(&crowd, m, workspace, workspace_size, &out);
+    if (said && !result) {
+      result = said;
+      out.refused = m->id;
+    }
+  }
+  for (size_t k = 0; k < count; k++) {
+    nsvcd__grow_calm(&crowd, &movers[k]);
+    out.asleep += movers[k].asleep != 0;
+  }
+  const nsvcd_result arrives = nsvcd_world_arrive(world);
+  if (answer) *answer = out;
+  return result ? result : arrives;
+}
+
+// -------------------------------------------------------------------------------------- world/mass
+// In: a mesh. Out: its volume, centre of mass and moments of inertia, as a solid of one density.
+
+// relative: how far what a closed mesh adds up to is off, for rounding and pinholes
+#define NSVCD__CLOSED 1e-5
+
+// Of the volume between a point and each triangle, in coordinates from there.
+typedef struct nsvcd__moments {
+  double volume;
+  // of x, y and z; of their squares
+  nsvcd__d3 first, second;
+  // the sum of areas, of areas as vectors, and of x, y and z times these. Of a closed surface the
+  // second is 0, and each of the third is the volume along its axis
+  double area;
+  nsvcd__d3 areas, by[3];
+} nsvcd__moments;
+
+static void nsvcd__moments_add(nsvcd__moments *m, nsvcd__d3 a, nsvcd__d3 b, nsvcd__d3 c) {
+  const nsvcd__d3 area =
+      nsvcd__d3_scale(nsvcd__d3_cross(nsvcd__d3_sub(b, a), nsvcd__d3_sub(c, a)), 0.5);
+  const nsvcd__d3 sum = nsvcd__d3_add(nsvcd__d3_add(a, b), c);
+  const double volume = nsvcd__d3_dot(a, area) / 3;
+  m->volume += volume;
+  m->first = nsvcd__d3_fma(volume / 4, sum, m->first);
+  m->area += nsvcd__d3_norm(area);
+  m->areas = nsvcd__d3_add(m->areas, area);
+  for (size_t k = 0; k < 3; k++) {
+    const double x = nsvcd__d3_axis(a, k);
+    const double y = nsvcd__d3_axis(b, k);
+    const double z = nsvcd__d3_axis(c, k);
+    const double all = x + y + z;
+    const double squares = (x * x + y * y + z * z + all * all) / 20;
+    nsvcd__d3_set_axis(&m->second, k, nsvcd__d3_axis(m->second, k) + volume * squares);
+    m->by[k] = nsvcd__d3_fma(all / 3, area, m->by[k]);
+  }
+}
+
+// Do areas add up as those of a closed surface do? size: of its box.
+static int nsvcd__adds_up(const nsvcd__moments *m, double size) {
+  const double most = NSVCD__CLOSED * m->area;
+  if (!(m->volume > most * size) || nsvcd__d3_norm(m->areas) > most) return 0;
+  for (size_t k = 0; k < 3; k++) {
+    nsvcd__d3 off = m->by[k];
+    nsvcd__d3_set_axis(&off, k, nsvcd__d3_axis(off, k) - m->volume);
+    if (nsvcd__d3_norm(off) > most * size) return 0;
+  }
+  return 1;
+}
+
+static nsvcd_result nsvcd__box_of_mesh(const nsvcd_mesh *mesh, nsvcd__box *box) {
+  if (!mesh || !mesh->positions || !mesh->indices) return NSVCD_ERROR_ARGUMENT;
+  if (mesh->vertex_count == 0 || mesh->triangle_count == 0) return NSVCD_ERROR_EMPTY;
+  for (size_t i = 0; i < mesh->triangle_count; i++) {
+    for (size_t k = 0; k < 3; k++) {
+      const size_t n = mesh->indices[3 * i + k];
+      if (n >= mesh->vertex_count) return NSVCD_ERROR_INDEX;
+      if (!nsvcd__in_range(mesh->positions + 3 * n, 3, NSVCD_MAX_COORDINATE))
+        return NSVCD_ERROR_NUMBER;
+      const nsvcd__f3 at = nsvcd__f3_row(mesh->positions, n);
+      box->low = i + k ? nsvcd__f3_min(box->low, at) : at;
+      box->high = i + k ? nsvcd__f3_max(box->high, at) : at;
+    }
+  }
+  return NSVCD_OK;
+}
+
+NSVCDDEF nsvcd_result nsvcd_mesh_mass(const nsvcd_mesh *mesh, nsvcd_mass *mass) {
+  nsvcd__moments m;
+  nsvcd__box box;
+  if (!mass) return NSVCD_ERROR_ARGUMENT;
+  memset(&m, 0, sizeof m);
+  const nsvcd_result result = nsvcd__box_of_mesh(mesh, &box);
+  if (result) return result;
+  const nsvcd__d3 low = nsvcd__d3_widen(box.low);
+  const nsvcd__d3 high = nsvcd__d3_widen(box.high);
+  const nsvcd__d3 middle = nsvcd__d3_mix(low, high, 0.5);
+  for (size_t i = 0; i < mesh->triangle_count; i++) {
+    nsvcd__d3 corners[3];
+    for (size_t k = 0; k < 3; k++)
+      corners[k] =
+          nsvcd__d3_sub(nsvcd__d3_row(mesh->positions, mesh->indices[3 * i + k]), middle);
+    nsvcd__moments_add(&m, corners[0], corners[1], corners[2]);
+  }
+  const nsvcd__d3 size = nsvcd__d3_sub(high, low);
+  mass->is_of_box = !nsvcd__adds_up(&m, nsvcd__d3_norm(size));
+  if (mass->is_of_box) {
+    m.volume = size.x * size.y * size.z;
+    m.first = nsvcd__d3_of(0, 0, 0);
+    m.second = nsvcd__d3_of(size.x * size.x / 12, size.y * size.y / 12, size.z * size.z / 12);
+  } else {
+    m.first = nsvcd__d3_over(m.first, m.volume);
+    m.second = nsvcd__d3_over(m.second, m.volume);
+  }
+  // of squares about the centre of mass
+  const nsvcd__d3 c = m.first;
+  const nsvcd__d3 s =
+      nsvcd__d3_of(m.second.x - c.x * c.x, m.second.y - c.y * c.y, m.second.z - c.z * c.z);
+  mass->volume = (float)m.volume;
+  nsvcd__f3_store(nsvcd__d3_narrow(nsvcd__d3_add(middle, c)), mass->centre);
+  nsvcd__f3_store(nsvcd__d3_narrow(nsvcd__d3_of(s.y + s.z, s.z + s.x, s.x + s.y)),
+                  mass->inertia);
   return NSVCD_OK;
 }
 

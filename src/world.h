@@ -49,14 +49,17 @@ extern "C" {
 #include "ground/memory.h"     // the allocator; the rows of a workspace
 
 // ============================================================== world: one body against all others
-#include "world/boxes.h"    // boxes about bodies on their ways
-#include "world/tree.h"     // boxes that meet a box
-#include "world/world.h"    // bodies at their places; who may meet whom
-#include "world/ask.h"      // a mover against all that it comes near
-#include "world/respond.h"  // what contacts leave of a speed
-#include "world/ways.h"     // contacts, and ways as far as they are free
-#include "world/walk.h"     // characters: grounds, walls and steps
-#include "world/slide.h"    // a frame of a body
+#include "world/boxes.h"     // boxes about bodies on their ways
+#include "world/tree.h"      // boxes that meet a box
+#include "world/world.h"     // bodies at their places; who may meet whom
+#include "world/ask.h"       // a mover against all that it comes near
+#include "world/respond.h"   // what contacts leave of a speed
+#include "world/ways.h"      // contacts, and ways as far as they are free
+#include "world/walk.h"      // characters: grounds, walls and steps
+#include "world/slide.h"     // a frame of a body
+#include "world/momentum.h"  // what bodies that meet give each other
+#include "world/step.h"      // a frame of all
+#include "world/mass.h"      // the mass of a mesh
 
 #if defined(__GNUC__) || defined(__clang__)
 #pragma GCC diagnostic pop

@@ -50,6 +50,7 @@ void test_contacts(void);
 void test_shapes(void);
 void test_world(void);
 void test_slide(void);
+void test_step(void);
 void test_proof(void);
 void test_fits(void);
 void test_asks(void);
@@ -123,6 +124,7 @@ static const test_file files[] = {
     OF(shapes),
     OF(world),
     OF(slide),
+    OF(step),
     OF(proof),
     OF(fits),
     OF(asks),

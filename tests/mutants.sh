@@ -2,6 +2,7 @@
 # Are the tests of the proof worth anything? Each mutant is the library with one mistake in it; tests/test_proof.c has to
 # fail on it, or, where its name begins with `level:`, `asks:`, `long:`, `exact:`, `floor:`, `solids:`, `round:`,
 # `robot:`, `looks:`, `shapes:`, `contacts:`, `world:`, `slide:`, `route_looks:`, `many_joints:`, `postures:`, `reach:`, `ranges:`, `allowances:`, `mimics:`, `merge:` or `cones:`, tests/test_level.c and so on; of `verify:` and `checker:` the mistake is in the checker of
+# `robot:`, `looks:`, `contacts:`, `world:`, `slide:`, `step:`, `route_looks:`, `many_joints:`, `postures:`, `reach:`, `ranges:`, `allowances:`, `mimics:`, `merge:` or `cones:`, tests/test_level.c and so on; of `verify:` and `checker:` the mistake is in the checker of
 # certificates, examples/verify, and tests/test_certificate.c or tests/test_checker.c has to fail, of `fits:`
 # tests/test_fits.c, of `plans:` tests/forge.py, which needs build/svcd. Prints a line for each, and exits with 1 if one survives. An argument runs only the mutants whose
 # name contains it. Some 20 seconds each; PART=0 OF=16 WORK=folder: every 16th of them, in a folder of its own.
@@ -13,6 +14,7 @@ work=${WORK:-build/mutants}
 mkdir -p $work/tests/bench $work/examples/scenery $work/examples/verify
 cp weights.h $work/
 cp tests/test_proof.c tests/test_level.c tests/test_asks.c tests/test_long.c tests/test_exact.c tests/test_floor.c tests/test_solids.c tests/test_round.c tests/test_robot.c tests/test_looks.c tests/test_shapes.c tests/test_contacts.c tests/test_world.c tests/test_slide.c tests/test_route_looks.c tests/test_many_joints.c tests/test_postures.c tests/test_reach.c tests/test_ranges.c tests/test_allowances.c tests/test_mimics.c tests/test_merge.c tests/test_cones.c tests/test_certificate.c tests/test_checker.c tests/test_fits.c tests/*.h $work/tests/
+cp tests/test_proof.c tests/test_level.c tests/test_asks.c tests/test_long.c tests/test_exact.c tests/test_floor.c tests/test_solids.c tests/test_round.c tests/test_robot.c tests/test_looks.c tests/test_contacts.c tests/test_world.c tests/test_slide.c tests/test_step.c tests/test_route_looks.c tests/test_many_joints.c tests/test_postures.c tests/test_reach.c tests/test_ranges.c tests/test_allowances.c tests/test_mimics.c tests/test_merge.c tests/test_cones.c tests/test_certificate.c tests/test_checker.c tests/test_fits.c tests/*.h $work/tests/
 cp tests/bench/*.h $work/tests/bench/
 cp examples/scenery/*.h $work/examples/scenery/
 cp examples/verify/verify.c $work/examples/verify/
@@ -571,6 +573,22 @@ slide: stays at the clearance|left[k].least = NSVCD__LEAVES * nsvcd__max(holds[k
 slide: no way down|if (stood \&\& !s.ground \&\& given->step > 0 \&\& rises <= 0) nsvcd__step_down(\&s);|
 slide: a climb is no way|s->pace *= 1 - gone;|
 slide: nobody rides|s->ridden = nsvcd__driven_speed(s, s->ground->body, nsvcd__pivot_at(s));|
+step: movers of the array's order|return a.height < b.height;|return a.mover < b.mover;
+step: a mover twice|if (!r \|\| r->mover != k \|\| r->given.fixed)|if (!r \|\| r->given.fixed)
+step: what is fixed moves|r->mover != k \|\| r->given.fixed)|r->mover != k)
+step: more than there can be|if (count > world->most) return NSVCD_ERROR_INDEX;|if (count > 3 * world->most) count = 3;
+step: sleeps while it is driven at|if (m \&\& m->asleep) nsvcd__wake(m);|
+step: sleeps on what is gone|return !r \|\| (r->moved > since|return r \&\& (r->moved > since
+step: sleeps on what falls|nsvcd__mover_speed(crowd, other) > crowd->quiet) return 1;|0) return 1;
+step: what is driven slides|if (m->asleep \|\| crowd->world->residents[m->id].is_driven) return NSVCD_OK;|if (m->asleep) return NSVCD_OK;
+step: driven for good|const nsvcd_result arrives = nsvcd_world_arrive(world);|const nsvcd_result arrives = NSVCD_OK;
+step: nobody sleeps|m->asleep = 1;|
+step: nothing is taken off|if (other) nsvcd__push(other, \&at->other, -more);|
+step: what is hit takes nothing|nsvcd__push(\&p.things[at->with], \&at->other, -at->own.pushed);|(void)0;
+step: energy from nowhere|for (; nsvcd__energy_of_all(\&p) > energy; share *= 0.5) {|for (; 0; share *= 0.5) {
+step: characters push nothing|came.inverse_mass = p->thing.inverse_mass /= mass;|came.inverse_mass = p->thing.inverse_mass;
+step: masses about the box|s.y + s.z, s.z + s.x, s.x + s.y|s.x + s.y, s.z + s.x, s.y + s.z
+step: open meshes are solids|if (nsvcd__d3_norm(off) > most * size) return 0;|
 LIST
 
 if [ -n "${DRY:-}" ]; then python3 tests/make_mutant.py --all $work/list && exit 0 || exit 1; fi
@@ -600,6 +618,7 @@ while IFS= read -r line; do
     contacts:*) file=test_contacts.c ;;
     world:*) file=test_world.c ;;
     slide:*) file=test_slide.c ;;
+    step:*) file=test_step.c ;;
     route_looks:*) file=test_route_looks.c ;;
     many_joints:*) file=test_many_joints.c ;;
     ranges:*) file=test_ranges.c ;;

@@ -1,6 +1,5 @@
 // throw.c - a room to throw things in, as a WebAssembly module for throw.js: things, and one who
-// walks among them, are bodies of an nsvcd_world (scenery/props.h). Each move is proven free before it
-// is made, so that no two ever overlap; throw_overlaps asks whether that is so.
+// walks among them, are movers of an nsvcd_world. Each move is proven free before it is made, so that no two ever overlap; throw_overlaps asks whether that is so.
 //
 // The module imports nothing, not even a clock. throw.js reads the structs in linear memory.
 #define NSVCD_NO_STDIO
@@ -12,8 +11,12 @@
 #include "../scenery/level.h"
 #include "../scenery/props.h"
 
-// throw.js counts on it.
-_Static_assert(offsetof(props_thing, asleep) == 4 && offsetof(props_thing, pose) == 8, "");
+// A thing, as throw.js reads it.
+typedef struct thing {
+  int kind;  // -1: there is nothing
+  int asleep;
+  nsvcd_pose pose;
+} thing;
 
 #define EXPORT(name) __attribute__((export_name(#name))) name
 
@@ -26,10 +29,14 @@ enum { KINDS = 9, WALKER = KINDS, ROOM, FLOOR, WALLS, BUILT, MESHES };
 
 static shapes_mesh meshes[MESHES];
 static props_shape shapes[ROOM + 1];
-static props_world *world;
-static size_t walker;
+static nsvcd_world *world;
+static void *memory, *workspace;
+static size_t workspace_size;
+static nsvcd_world_mover movers[MOST + 1];  // who walks is the first
+static thing things[MOST + 1];
+static size_t count, next;
 static float walking[2];
-static size_t thrown[MOST], next;
+static size_t counts[2];  // questions, and contacts
 static shapes_rng rng = {2026};
 
 // ------------------------------------------------------------------------------------------ making
@@ -107,13 +114,11 @@ static nsvcd_result make_shapes(void) {
   cut(&meshes[WALLS], room, floor, walls);
   cut(&meshes[BUILT], room, walls, room->triangles);
   for (size_t k = 0; k <= ROOM; k++) {
-    nsvcd_encode_options options = {0};
     nsvcd_result result = NSVCD_ERROR_MEMORY;
-    options.patch_radius = k == ROOM ? 0.2f : 0;
     if (k == WALKER && !meshes[k].failed)
       result = nsvcd_encode_capsule(from, to, CAPSULE_RADIUS, NULL, &shapes[k].body);
     else if (k != WALKER)
-      result = props_encode(&meshes[k], &options, k != ROOM, &shapes[k]);
+      result = props_encode(&meshes[k], k == ROOM ? 0.2f : 0, &shapes[k]);
     if (result) return result;
   }
   return NSVCD_OK;
@@ -121,39 +126,66 @@ static nsvcd_result make_shapes(void) {
 
 // ----------------------------------------------------------------------------------------- playing
 
+static int is_free(const nsvcd_world_mover *m) {
+  return m->id && props_is_free(world, m, workspace, workspace_size);
+}
+
+// What throw.js sees of a mover.
+static void show(size_t k) {
+  nsvcd_world_body body;
+  if (nsvcd_world_get(world, movers[k].id, &body)) return;
+  things[k].pose = body.pose;
+  things[k].asleep = movers[k].asleep;
+}
+
 // The room, and who walks there, and nothing else: at first, and again.
 nsvcd_result EXPORT(throw_init)(void) {
   const nsvcd_pose origin = {{0, 0, 0}, {0, 0, 0, 1}};
   const nsvcd_pose start = {{-4, 2.8f, 0.9f}, {0, 0, 0, 1}};
-  const nsvcd_result result = shapes[ROOM].body ? NSVCD_OK : make_shapes();
+  const size_t size = nsvcd_world_size(MOST + 2);
+  nsvcd_result result = shapes[ROOM].body ? NSVCD_OK : make_shapes();
   if (result) return result;
-  free(world);
-  world = props_new(MOST + 2);
-  if (!world) return NSVCD_ERROR_MEMORY;
-  world->gap = 0.002f;
-  props_add(world, &shapes[ROOM], ROOM, 1, 0, &origin);
-  walker = props_add(world, &shapes[WALKER], WALKER, 1, 40, &start);
-  props_make_walker(&world->things[walker], 0.25f);
+  workspace_size = nsvcd_sweep_workspace_size(NULL);
+  if (!memory) memory = malloc(size);
+  if (!workspace) workspace = malloc(workspace_size);
+  if (!memory || !workspace) return NSVCD_ERROR_MEMORY;
+  result = nsvcd_world_begin(memory, size, MOST + 2, &world);
+  if (result) return result;
+  if (!props_add(world, &shapes[ROOM], 1, 0, &origin)) return NSVCD_ERROR_COUNT;
+  movers[0] = props_character(props_add(world, &shapes[WALKER], 1, 1, &start), 40, 0.25f);
+  for (size_t k = 0; k <= MOST; k++) things[k].kind = -1;
+  things[0].kind = WALKER;
+  count = 1;
+  next = counts[0] = counts[1] = 0;
   walking[0] = walking[1] = 0;
-  memset(thrown, 0, sizeof thrown);
+  show(0);
   return NSVCD_OK;
 }
 
-// Whether there is room for it where it starts. It turns at random.
+static void drop(size_t k) {
+  (void)nsvcd_world_remove(world, movers[k].id);
+  movers[k] = movers[--count];
+  things[k] = things[count];
+  things[count].kind = -1;
+}
+
+// Whether there is room for it where it starts. It turns at random. Of too many the oldest goes.
 int EXPORT(throw_thing)(size_t kind, float x, float y, float z, float to_x, float to_y,
                         float to_z) {
   double q[4];
   nsvcd_pose pose = {{x, y, z}, {0, 0, 0, 1}};
-  size_t *slot = &thrown[next % MOST];
   shapes_quaternion(&rng, q);
   for (int k = 0; k < 4; k++) pose.rotation[k] = (float)q[k];
-  props_remove(world, *slot);
-  *slot = props_add(world, &shapes[kind], (int)kind, 1, 5, &pose);
-  if (*slot == NSVCD_NOBODY) return 0;
+  if (count == MOST + 1) drop(1 + next++ % MOST);
+  const size_t id = props_add(world, &shapes[kind], 1, 5, &pose);
+  nsvcd_world_mover m = props_mover(id, &shapes[kind], 1, 5, 0.002f);
+  if (!is_free(&m)) return (void)nsvcd_world_remove(world, id), 0;
   const nsvcd_velocity velocity = {{to_x, to_y, to_z},
                                    {3 * pose.rotation[2], 3 * pose.rotation[0], 2}};
-  world->things[*slot].velocity = velocity;
-  next++;
+  m.velocity = velocity;
+  movers[count] = m;
+  things[count].kind = (int)kind;
+  show(count++);
   return 1;
 }
 
@@ -164,45 +196,45 @@ void EXPORT(throw_walk)(float x, float y) {
 }
 
 nsvcd_result EXPORT(throw_step)(float seconds) {
-  memcpy(world->things[walker].velocity.linear, walking, sizeof walking);
-  const nsvcd_result result = props_step(world, seconds);
-  for (size_t n = 0; n < MOST; n++)
-    if (thrown[n] && world->things[thrown[n]].pose.position[2] < BOTTOM) {
-      props_remove(world, thrown[n]);
-      thrown[n] = NSVCD_NOBODY;
-    }
-  return result;
+  nsvcd_step_options options = {{0, 0, -9.81f}, 0, 0};
+  nsvcd_step_answer answer;
+  memcpy(movers[0].velocity.linear, walking, sizeof walking);
+  const nsvcd_result result =
+      nsvcd_world_step(world, movers, count, &options, seconds, workspace, workspace_size, &answer);
+  if (result) return result;
+  counts[0] += answer.questions;
+  counts[1] += answer.contacts;
+  for (size_t k = count; k-- > 0;) {
+    show(k);
+    if (k > 0 && things[k].pose.position[2] < BOTTOM) drop(k);
+  }
+  return NSVCD_OK;
 }
 
 // How many of what can move are not proven to be apart from all else, as they stand.
 size_t EXPORT(throw_overlaps)(void) {
   size_t overlaps = 0;
-  for (size_t n = 0; n < world->count; n++) {
-    nsvcd_world_question question;
-    nsvcd_world_answer answer;
-    memset(&question, 0, sizeof question);
-    question.self = world->order[n];
-    if (world->things[question.self].kind == ROOM) continue;
-    overlaps += nsvcd_world_sweep(world->world, &question, world->workspace, world->workspace_size,
-                                  &answer) != NSVCD_OK ||
-                answer.verdict != NSVCD_FREE;
+  for (size_t k = 0; k < count; k++) {
+    nsvcd_world_mover m = movers[k];
+    m.how.clearance = 0;
+    overlaps += !is_free(&m);
   }
   return overlaps;
 }
 
 // One after the other, those that are not there too, and how many bytes each has.
-const props_thing *EXPORT(throw_things)(void) {
-  return world->things;
+const thing *EXPORT(throw_things)(void) {
+  return things;
 }
 size_t EXPORT(throw_count)(void) {
-  return world->most + 1;
+  return MOST + 1;
 }
 size_t EXPORT(throw_size)(void) {
-  return sizeof(props_thing);
+  return sizeof(thing);
 }
 // Since throw_init: questions, and contacts.
 const size_t *EXPORT(throw_counts)(void) {
-  return world->counts;
+  return counts;
 }
 const shapes_mesh *EXPORT(throw_mesh)(size_t which) {
   return &meshes[which];

@@ -43,7 +43,7 @@ function mesh(which) {  // shapes_mesh
 // The walker and what was thrown.
 function things() {
   const list = [];
-  for (let i = 0; i < c.throw_count(); i++) {  // props_thing
+  for (let i = 0; i < c.throw_count(); i++) {  // thing
     const at = c.throw_things() + c.throw_size() * i;
     const [kind, asleep] = words(at, 2);
     const pose = floats(at + 8, 7);

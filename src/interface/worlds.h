@@ -224,3 +224,99 @@ NSVCDDEF nsvcd_result nsvcd_world_slide(nsvcd_world *world, size_t id,
                                         const nsvcd_slide_options *options, float seconds,
                                         void *workspace, size_t workspace_size,
                                         nsvcd_velocity *velocity, nsvcd_slide_answer *answer);
+
+// A body that a step moves. Zero is the default of everything but `id`.
+typedef struct nsvcd_world_mover {
+  size_t id;
+  // how it slides
+  nsvcd_slide_options how;
+  // yours to change between two steps: what sleeps and is given a speed is awake
+  nsvcd_velocity velocity;
+  // kilograms: what a character pushes with; default 0: it pushes nothing. A character is whatever
+  // has no mass in `how`
+  float push_mass;
+  // a second: the share of its speed, and of its spin, that it loses everywhere
+  float damping, spin_damping;
+  // 1: it sleeps: it stays where it is, and costs nothing. Yours to read, set and clear
+  int asleep;
+  // 1: it never falls asleep. Nor do characters
+  int sleepless;
+  // seconds for which it has been quiet: the library's
+  float calm;
+  // of its last slide
+  nsvcd_slide_answer answer;
+} nsvcd_world_mover;
+
+// What acts on all movers of a step. Zero means the default.
+typedef struct nsvcd_step_options {
+  // metres a second squared; (0, 0, 0): there is none
+  float gravity[3];
+  // metres a second, default 0.15: what touches something, and of which no point is faster than
+  // that, falls asleep after so many seconds, default 0.1
+  float quiet, calm;
+} nsvcd_step_options;
+
+// What became of all movers in a frame.
+typedef struct nsvcd_step_answer {
+  // how many moved or could have, sleep at the end, and were caught
+  size_t awake, asleep, caught;
+  // of all slides
+  size_t contacts, questions, work;
+  // the body at fault, if something was refused; or nobody
+  size_t refused;
+} nsvcd_step_answer;
+
+// Moves bodies of a world for a frame, and ends it: each is given gravity and slides, the lowest
+// first, by its pivot and against gravity; what it hits has its part of the momentum then; who is
+// quiet for long enough falls asleep; and what is driven arrives.
+//   movers     (count), each of a body of its own; NULL if that is 0. In any order: what happens
+//              depends on it only between bodies of the same height, or without gravity
+//   options    NULL: the defaults
+//   seconds    of the frame
+//   answer     may be NULL. On failure only its `refused` is set, but with POSE all of it
+//   allocates  nothing
+//   threads    as nsvcd_world_move
+//   errors     those of nsvcd_world_slide; INDEX (`id` is no body's, a fixed body's, or there
+//              twice), VALUE (a gravity, a push mass or a damping), SPEED (`quiet` too), TIMES
+//              (`calm` too). They are found before anything moves, and then everything is as it
+//              was. But POSE (a body is about to leave the coordinates) is found then: that body
+//              stays where it is, and all others have moved
+//   source     sequential impulses (Catto 2006) for the pairs of a body and those that it met; this
+//              library
+//
+// What is proven is proven as of slides: no two bodies overlap, if none did. The rest is physics:
+//   A mover that is driven (nsvcd_world_drive) goes where it is driven, for that frame, as one that
+// nothing stops, and its velocity is left alone.
+//   What two bodies give each other keeps their momentum along the normal, and gains no energy.
+// What comes no faster than gravity speeds it up in two frames, or, unless it is a character, than
+// twice `quiet`, gives nothing, or no pile would come to rest: such contacts only hold.
+//   What has a friction is braked where it touches: it loses 0.3 of its speed a second, 1.2 of its
+// spin, and 10 of both while it is nearly quiet.
+//   What sleeps wakes when it is given something, when what it touches is moved, removed or faster
+// than `quiet`, and when something is driven near it. Who is put to sleep before its first
+// frame is woken by all of these but what it touches, which nobody knows.
+NSVCDDEF nsvcd_result nsvcd_world_step(nsvcd_world *world, nsvcd_world_mover *movers,
+                                       size_t count, const nsvcd_step_options *options,
+                                       float seconds, void *workspace, size_t workspace_size,
+                                       nsvcd_step_answer *answer);
+
+// A mesh as a solid of one density.
+typedef struct nsvcd_mass {
+  // cubic metres
+  float volume;
+  // the centre of mass: the pivot of what moves freely
+  float centre[3];
+  // square metres: moments of inertia about the axes of its frame through that centre, of a
+  // kilogram. Times the mass, and the scale squared, they are those of nsvcd_slide_options
+  float inertia[3];
+  // 1: the mesh is open, inside out or flat, and all of this is that of its box
+  int is_of_box;
+} nsvcd_mass;
+
+// Computes the mass properties of a mesh. Exact, to rounding, where it is closed; that is held
+// against what any closed surface adds up to. Of parts that overlap what they share counts twice.
+//   mesh, mass  not NULL; left as it was on failure
+//   allocates   nothing
+//   errors      ARGUMENT, INDEX, NUMBER, EMPTY
+//   source      integrals over the tetrahedra from a point to each triangle
+NSVCDDEF nsvcd_result nsvcd_mesh_mass(const nsvcd_mesh *mesh, nsvcd_mass *mass);

@@ -26,6 +26,23 @@ static nsvcd_result nsvcd__slide_check(const nsvcd_slide_options *o, float secon
   return NSVCD_OK;
 }
 
+// A body as contacts see it: its speed, and what an impulse changes.
+static nsvcd__thing nsvcd__thing_of(const nsvcd_slide_options *given, const nsvcd_pose *pose,
+                                    const nsvcd_velocity *velocity) {
+  const nsvcd__dpose at = nsvcd__dpose_of(pose);
+  const float *inertia = given->inertia;
+  nsvcd__thing out;
+  out.linear = nsvcd__d3_load(velocity->linear);
+  out.angular = nsvcd__d3_load(velocity->angular);
+  out.inverse_mass = given->mass > 0 ? 1 / (double)given->mass : 1;
+  out.inverse_inertia = nsvcd__d3_of(inertia[0] > 0 ? 1 / (double)inertia[0] : 0,
+                                     inertia[1] > 0 ? 1 / (double)inertia[1] : 0,
+                                     inertia[2] > 0 ? 1 / (double)inertia[2] : 0);
+  out.axes = nsvcd__dtransform_of(&at).rotation;
+  out.friction = (double)given->friction;
+  return out;
+}
+
 static nsvcd_result nsvcd__slide_begin(const nsvcd_world *world, size_t id,
                                        const nsvcd_slide_options *given, float seconds,
                                        void *workspace, size_t size,
@@ -51,17 +68,7 @@ static nsvcd_result nsvcd__slide_begin(const nsvcd_world *world, size_t id,
   s->slope = given->slope > 0 ? (double)given->slope : NSVCD__USUAL_SLOPE;
   s->ask.question.clearance = (float)s->clearance;
   s->ask.question.to = (float)(NSVCD__STOPS_WITHIN * s->margin);
-  nsvcd__thing *thing = &s->thing;
-  const nsvcd__dpose pose = nsvcd__dpose_of(&s->pose);
-  const float *inertia = given->inertia;
-  thing->linear = nsvcd__d3_load(velocity->linear);
-  thing->angular = nsvcd__d3_load(velocity->angular);
-  thing->inverse_mass = given->mass > 0 ? 1 / (double)given->mass : 1;
-  thing->inverse_inertia = nsvcd__d3_of(inertia[0] > 0 ? 1 / (double)inertia[0] : 0,
-                                        inertia[1] > 0 ? 1 / (double)inertia[1] : 0,
-                                        inertia[2] > 0 ? 1 / (double)inertia[2] : 0);
-  thing->axes = nsvcd__dtransform_of(&pose).rotation;
-  thing->friction = (double)given->friction;
+  s->thing = nsvcd__thing_of(given, &s->pose, velocity);
   return NSVCD_OK;
 }
 

@@ -19,7 +19,15 @@ typedef struct nsvcd__resident {
   // when it came to where it is, on the world's clock
   uint64_t moved;
   uint32_t next_free;
+  // which of a step's movers it was last
+  uint32_t mover;
 } nsvcd__resident;
+
+// One of a step's movers, and how high it is.
+typedef struct nsvcd__turn {
+  float height;
+  uint32_t mover;
+} nsvcd__turn;
 
 struct nsvcd_world {
   nsvcd__box_tree tree;
@@ -31,6 +39,9 @@ struct nsvcd_world {
   volatile uint32_t changes;
   // of all moves
   uint64_t clock;
+  // (most): the order of the last step, and of how many movers it is
+  nsvcd__turn *turns;
+  uint32_t turn_count;
 };
 
 static size_t nsvcd__world_layout(size_t most, char *base, nsvcd_world **world) {
@@ -38,9 +49,11 @@ static size_t nsvcd__world_layout(size_t most, char *base, nsvcd_world **world) 
   nsvcd_world *w = NSVCD__TAKE_ROWS(nsvcd_world, 1, base, &used);
   nsvcd__resident *residents = NSVCD__TAKE_ROWS(nsvcd__resident, most + 1, base, &used);
   nsvcd__branch *nodes = NSVCD__TAKE_ROWS(nsvcd__branch, 2 * most, base, &used);
+  nsvcd__turn *turns = NSVCD__TAKE_ROWS(nsvcd__turn, most, base, &used);
   if (w) {
     memset(w, 0, sizeof *w);
     w->residents = residents;
+    w->turns = turns;
     w->most = (uint32_t)most;
     nsvcd__tree_begin(&w->tree, nodes, w->most);
     *world = w;

@@ -267,16 +267,12 @@ static size_t print_frames(const bench *b, size_t movers, size_t frames) {
   const size_t size = nsvcd_world_size(movers + 1);
   nsvcd_world *world;
   size_t level;
-  size_t *ids = (size_t *)allocate(movers * sizeof *ids);
-  nsvcd_velocity *speeds = (nsvcd_velocity *)allocate(movers * sizeof *speeds);
-  nsvcd_slide_options *options = (nsvcd_slide_options *)allocate(movers * sizeof *options);
-  nsvcd_slide_answer *answers = (nsvcd_slide_answer *)allocate(movers * sizeof *answers);
+  const nsvcd_step_options options = {{0, 0, -9.81f}, 0, 0};
+  nsvcd_world_mover *all = (nsvcd_world_mover *)allocate(movers * sizeof *all);
   oracle_mesh *exact = (oracle_mesh *)allocate((movers + 1) * sizeof *exact);
   double *times = (double *)allocate(frames * sizeof *times);
   shapes_rng rng = {13};
-  memset(speeds, 0, movers * sizeof *speeds);
-  memset(options, 0, movers * sizeof *options);
-  memset(answers, 0, movers * sizeof *answers);
+  memset(all, 0, movers * sizeof *all);
   void *memory = allocate(size);
   if (nsvcd_world_begin(memory, size, movers + 1, &world)) exit(REFUSED);
   nsvcd_world_body body;
@@ -299,16 +295,16 @@ static size_t print_frames(const bench *b, size_t movers, size_t frames) {
     memset(&body, 0, sizeof body);
     body.body = b->bodies[k % PROPS];
     body.pose = pose_at(x, y, level_height(x, y) + 1.6 + 0.6 * (double)(k % 3), turn);
-    if (nsvcd_world_add(world, &body, &ids[k])) exit(REFUSED);
-    for (int tries = 0; tries < 100 && !is_free(b, world, ids[k]); tries++) {
+    if (nsvcd_world_add(world, &body, &all[k].id)) exit(REFUSED);
+    for (int tries = 0; tries < 100 && !is_free(b, world, all[k].id); tries++) {
       body.pose.position[2] += 0.1f;
-      if (nsvcd_world_move(world, ids[k], &body.pose)) exit(REFUSED);
+      if (nsvcd_world_move(world, all[k].id, &body.pose)) exit(REFUSED);
     }
     if (!oracle_mesh_init(&exact[k + 1], mesh->positions, mesh->vertices, mesh->indices,
                           mesh->triangles, 1))
       exit(REFUSED);
     shapes_bounds(mesh, low, high);
-    nsvcd_slide_options *o = &options[k];
+    nsvcd_slide_options *o = &all[k].how;
     for (int i = 0; i < 3; i++) {
       const double u = high[(i + 1) % 3] - low[(i + 1) % 3];
       const double v = high[(i + 2) % 3] - low[(i + 2) % 3];
@@ -319,19 +315,14 @@ static size_t print_frames(const bench *b, size_t movers, size_t frames) {
     o->clearance = o->margin = 0.001f;
   }
   size_t questions = 0;
-  size_t resting = 0;
+  size_t asleep = 0;
   for (size_t frame = 0; frame < frames; frame++) {
+    nsvcd_step_answer answer;
     const double start = seconds();
-    resting = 0;
-    for (size_t k = 0; k < movers; k++) {
-      speeds[k].linear[2] -= 9.81f / 60;
-      for (int i = 0; i < 3; i++) speeds[k].angular[i] *= 0.98f;
-      if (nsvcd_world_slide(world, ids[k], &options[k], 1.0f / 60, b->workspace, b->size,
-                            &speeds[k], &answers[k]))
-        exit(REFUSED);
-      questions += answers[k].questions;
-      resting += answers[k].rests != 0;
-    }
+    if (nsvcd_world_step(world, all, movers, &options, 1.0f / 60, b->workspace, b->size, &answer))
+      exit(REFUSED);
+    questions += answer.questions;
+    asleep = answer.asleep;
     times[frame] = 1e3 * (seconds() - start);
   }
   double sum = 0;
@@ -341,15 +332,12 @@ static size_t print_frames(const bench *b, size_t movers, size_t frames) {
   const size_t overlaps = overlaps_of(world, exact, movers);
   printf(
       "%zu movers, %zu frames: median %.2f  mean %.2f  99 %% %.2f  worst %.2f  last %.2f ms; %.1f "
-      "questions a frame; %zu rest at the end, %zu overlap\n",
+      "questions a frame; %zu sleep at the end, %zu overlap\n",
       movers, frames, times[frames / 2], sum / (double)frames, times[frames * 99 / 100],
-      times[frames - 1], last, (double)questions / (double)frames, resting, overlaps);
+      times[frames - 1], last, (double)questions / (double)frames, asleep, overlaps);
   for (size_t k = 0; k <= movers; k++) oracle_mesh_free(&exact[k]);
   free(memory);
-  free(ids);
-  free(speeds);
-  free(options);
-  free(answers);
+  free(all);
   free(exact);
   free(times);
   return overlaps;

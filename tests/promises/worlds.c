@@ -204,6 +204,53 @@ static void who_is_driven_carries_and_catches(void) {
   nsvcd_body_free(figure, NULL);
 }
 
+// Two crates fall onto each other and sleep there, until the floor is gone. Their inertia is a mesh's.
+static void a_step_is_a_frame_of_all(void) {
+  float corners[8][3];
+  uint32_t faces[36] = {0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6, 0, 1, 5, 0, 5, 4,
+                        2, 6, 7, 2, 7, 3, 0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5};
+  const nsvcd_body *slab = box(10, 10, 1);
+  const nsvcd_body *crate = box(0.5f, 0.5f, 0.5f);
+  const nsvcd_step_options options = {.gravity = {0, 0, -9.81f}};
+  nsvcd_step_answer answer;
+  nsvcd_world_mover movers[2];
+  nsvcd_mass mass;
+  room r = room_begin();
+  for (int k = 0; k < 8; k++)
+    for (int i = 0; i < 3; i++) corners[k][i] = (k >> i & 1) ? 0.25f : -0.25f;
+  const nsvcd_mesh mesh = {corners[0], faces, 8, 12};
+  CHECK_EQ(nsvcd_mesh_mass(&mesh, &mass), NSVCD_OK);
+  CHECK_EQ(mass.is_of_box, 0);
+  CHECK_NEAR(mass.volume, 0.125, 1e-6);
+  CHECK_NEAR(mass.inertia[2], 1.0 / 24, 1e-6);
+  const size_t floor = put(&r, slab, at(0, 0, -0.5f), 1);
+  memset(movers, 0, sizeof movers);
+  for (int k = 0; k < 2; k++) {
+    movers[k].id = put(&r, crate, at(0.1f * (float)k, 0, 0.5f + 0.6f * (float)k), 0);
+    movers[k].how.mass = 1;
+    movers[k].how.friction = 0.5f;
+    memcpy(movers[k].how.inertia, mass.inertia, sizeof mass.inertia);
+  }
+  for (int frame = 0; frame < 120; frame++)
+    CHECK_EQ(
+        nsvcd_world_step(r.world, movers, 2, &options, 1.0f / 60, r.workspace, r.size, &answer),
+        NSVCD_OK);
+  CHECK_EQ(answer.asleep, 2);
+  CHECK_EQ(answer.questions, 0);
+  CHECK(place_of(&r, movers[0].id).position[2] > 0.25f);
+  CHECK(place_of(&r, movers[1].id).position[2] > place_of(&r, movers[0].id).position[2] + 0.5f);
+  CHECK_EQ(nsvcd_world_remove(r.world, floor), NSVCD_OK);
+  CHECK_EQ(nsvcd_world_step(r.world, movers, 2, &options, 1.0f / 60, r.workspace, r.size, &answer),
+           NSVCD_OK);
+  CHECK(answer.awake > 0 && !movers[0].asleep);
+  movers[1].id = movers[0].id;
+  CHECK_EQ(nsvcd_world_step(r.world, movers, 2, &options, 1.0f / 60, r.workspace, r.size, &answer),
+           NSVCD_ERROR_INDEX);
+  room_end(&r);
+  nsvcd_body_free(slab, NULL);
+  nsvcd_body_free(crate, NULL);
+}
+
 static void a_world_refuses_by_name(void) {
   const nsvcd_body *crate = box(0.5f, 0.5f, 0.5f);
   room r = room_begin();
@@ -253,6 +300,7 @@ void promises_worlds(void) {
   RUN(one_push_out_of_all_that_it_is_in);
   RUN(what_slides_keeps_its_speed_and_its_clearance);
   RUN(who_is_driven_carries_and_catches);
+  RUN(a_step_is_a_frame_of_all);
   RUN(a_world_refuses_by_name);
 }
 

@@ -1,0 +1,430 @@
+// Frames of all movers of a world: does nothing overlap, do piles stand and sleep, is momentum kept
+// and no energy gained, does what sleeps wake? Against distances in double by the oracle, and sums on
+// paper.
+#undef NSVCD_NO_DISPATCH
+#define NSVCD_NO_NETWORK
+#define NSVCD_STATIC
+#define NEURALSVCD_IMPLEMENTATION
+#include "../neuralsvcd.h"
+#define NEURALSVCD_WORLD_IMPLEMENTATION
+#include "../extras/neuralsvcd_world.h"
+
+#include "world_scene.h"
+
+void test_step(void);
+
+#define FRAME (1.0f / 60)
+#define NEAR 0.0005f  // the clearance and the margin
+static const nsvcd_step_options earth = {{0, 0, -9.81f}, 0, 0};
+static const nsvcd_step_options space = {{0, 0, 0}, 0, 0};
+
+static size_t add_floor(stage *s) {
+  return stage_add(s, thing_box(20, 20, 1), pose_of(0, 0, -0.5), 1);
+}
+// A cube of half a metre, that turns or not.
+static nsvcd_world_mover add_cube(stage *s, double x, double y, double z, float mass, int turns) {
+  nsvcd_world_mover out;
+  memset(&out, 0, sizeof out);
+  out.id = stage_add(s, thing_box(0.5, 0.5, 0.5), pose_of(x, y, z), 0);
+  out.how.clearance = out.how.margin = NEAR;
+  out.how.mass = mass;
+  out.how.friction = turns ? 0.5f : 0;
+  for (int k = 0; k < 3 && turns; k++) out.how.inertia[k] = mass / 24;
+  return out;
+}
+static nsvcd_step_answer step(stage *s, nsvcd_world_mover *movers, size_t count,
+                              const nsvcd_step_options *options) {
+  size_t size;
+  nsvcd_step_answer out;
+  void *memory = workspace(&size);
+  memset(&out, 0x5a, sizeof out);
+  CHECK_EQ(nsvcd_world_step(s->world, movers, count, options, FRAME, memory, size, &out), NSVCD_OK);
+  CHECK_EQ(out.refused, NSVCD_NOBODY);
+  return out;
+}
+static void keep_apart(const stage *s, const nsvcd_world_mover *movers, size_t count) {
+  for (size_t k = 0; k < count; k++)
+    CHECK_GE(stage_apart(s, movers[k].id), (double)movers[k].how.clearance - 1e-5);
+}
+
+// ---- rest
+
+// In an order that is no good, and with what was added last below.
+static void seven_stacks_of_five_stand(void) {
+  enum { STACKS = 7, TALL = 5, ALL = STACKS * TALL };
+  stage s = stage_begin();
+  nsvcd_world_mover movers[ALL];
+  nsvcd_pose begins[ALL];
+  nsvcd_step_answer answer;
+  add_floor(&s);
+  for (int k = 0; k < ALL; k++) {
+    const int level = (k * 3) % TALL;
+    movers[k] = add_cube(&s, k / TALL - 3, 0.02 * (level % 2), 0.26 + 0.502 * level, 1, 1);
+  }
+  for (int f = 0; f < 90; f++) {
+    answer = step(&s, movers, ALL, &earth);
+    if (f % 30 == 29) keep_apart(&s, movers, ALL);
+    for (int k = 0; k < ALL && f == 10; k++) begins[k] = stage_pose(&s, movers[k].id);
+  }
+  CHECK_EQ(answer.asleep, ALL);
+  CHECK_EQ(answer.awake, 0);
+  CHECK_EQ(answer.questions, 0);
+  for (int k = 0; k < ALL; k++) {
+    const nsvcd_pose now = stage_pose(&s, movers[k].id);
+    for (int i = 0; i < 3; i++) CHECK_NEAR(now.position[i], begins[k].position[i], 10 * NEAR);
+    CHECK_EQ(movers[k].asleep, 1);
+  }
+  stage_end(&s);
+}
+
+// ---- momentum
+
+static double momentum_of(const nsvcd_world_mover *movers, int axis, size_t count) {
+  double out = 0;
+  for (size_t k = 0; k < count; k++)
+    out += (double)movers[k].how.mass * (double)movers[k].velocity.linear[axis];
+  return out;
+}
+// Of cubes, whose inertia is the same about all axes.
+static double energy_of(const nsvcd_world_mover *movers, size_t count) {
+  double out = 0;
+  for (size_t k = 0; k < count; k++) {
+    for (int i = 0; i < 3; i++) {
+      const double v = (double)movers[k].velocity.linear[i];
+      const double w = (double)movers[k].velocity.angular[i];
+      out += 0.5 * ((double)movers[k].how.mass * v * v + (double)movers[k].how.inertia[i] * w * w);
+    }
+  }
+  return out;
+}
+
+// Two meet head-on: by paper, whoever is moved first.
+static void two_share_their_momentum(void) {
+  for (int trial = 0; trial < 48; trial++) {
+    stage s = stage_begin();
+    const float heavy = trial % 3 == 0 ? 1 : trial % 3 == 1 ? 4 : 0.25f;
+    const float bounces = trial % 2 ? 1 : 0;
+    const float other = trial / 12 % 2 ? -2 : 0;
+    nsvcd_world_mover m[2] = {add_cube(&s, -0.4, 0, 0, 1, 0), add_cube(&s, 0.4, 0, 0, heavy, 0)};
+    const int first = trial / 6 % 2;
+    m[0].velocity.linear[0] = 2;
+    m[1].velocity.linear[0] = other;
+    m[0].how.restitution = m[1].how.restitution = bounces;
+    const double sum = 2 + (double)heavy * (double)other;
+    const double joint = sum / (1 + (double)heavy);
+    const double energy = energy_of(m, 2);
+    if (first) {
+      const nsvcd_world_mover swapped = m[0];
+      m[0] = m[1];
+      m[1] = swapped;
+    }
+    for (int f = 0; f < 30; f++) {
+      step(&s, m, 2, &space);
+      keep_apart(&s, m, 2);
+      CHECK_LE(energy_of(m, 2), energy * (1 + 1e-6));
+      CHECK_NEAR(momentum_of(m, 0, 2), sum, 1e-4);
+    }
+    CHECK_NEAR(m[first].velocity.linear[0], joint - (double)bounces * (2 - joint), 0.02);
+    CHECK_NEAR(m[!first].velocity.linear[0], joint - (double)bounces * ((double)other - joint),
+               0.02);
+    stage_end(&s);
+  }
+}
+
+// A crowd that flies about, and turns, in a room without gravity: no energy is ever gained.
+static void a_crowd_gains_no_energy(void) {
+  enum { CROWD = 12 };
+  for (int kind = 0; kind < 4; kind++) {
+    stage s = stage_begin();
+    nsvcd_world_mover m[CROWD];
+    for (int axis = 0; axis < 3; axis++) {
+      for (int side = -1; side <= 1; side += 2) {
+        double at[3] = {0, 0, 0}, size[3] = {5, 5, 5};
+        at[axis] = 1.8 * side;
+        size[axis] = 0.5;
+        stage_add(&s, thing_box(size[0], size[1], size[2]), pose_of(at[0], at[1], at[2]), 1);
+      }
+    }
+    for (int k = 0; k < CROWD; k++) {
+      m[k] = add_cube(&s, 0.9 * (k % 3 - 1), 0.9 * (k / 3 % 3 - 1), 0.9 * (k / 9 - 0.5),
+                      k % 2 ? 1.0f : 10.0f, kind % 2);
+      m[k].how.friction = 0;
+      m[k].how.restitution = kind / 2 ? 1 : 0.5f;
+      for (int i = 0; i < 3; i++) m[k].velocity.linear[i] = (float)uniform(-8, 8);
+    }
+    double energy = energy_of(m, CROWD);
+    for (int f = 0; f < 60; f++) {
+      step(&s, m, CROWD, &space);
+      const double now = energy_of(m, CROWD);
+      CHECK_LE(now, energy * (1 + 1e-4));
+      energy = now;
+      if (f % 20 == 19) keep_apart(&s, m, CROWD);
+    }
+    stage_end(&s);
+  }
+}
+
+// ---- sleep
+
+static void what_sleeps_wakes(void) {
+  for (int how = 0; how < 8; how++) {
+    stage s = stage_begin();
+    const size_t floor = add_floor(&s);
+    nsvcd_world_mover m[3] = {add_cube(&s, 0, 0, 0.252, 1, 1), add_cube(&s, 0, 0, 0.754, 1, 1),
+                              add_cube(&s, 2, 0, 0.252, 1, 1)};
+    size_t count = 2;
+    for (int f = 0; f < 60; f++) step(&s, m, 2, &earth);
+    CHECK(m[0].asleep && m[1].asleep);
+    const nsvcd_pose was = stage_pose(&s, m[1].id);
+    const nsvcd_pose lower = pose_of(0, 0, -0.9);
+    const nsvcd_pose aside = pose_of(3, 3, 0.2512);
+    const nsvcd_pose lowered = pose_of(0, 0, -0.55);
+    if (how == 0) stage_remove(&s, floor);
+    if (how == 1) CHECK_EQ(nsvcd_world_move(s.world, floor, &lower), NSVCD_OK);
+    if (how == 2) CHECK_EQ(nsvcd_world_move(s.world, m[0].id, &aside), NSVCD_OK);
+    if (how == 3) CHECK_EQ(nsvcd_world_drive(s.world, floor, &lowered), NSVCD_OK);
+    if (how == 4) m[1].velocity.linear[2] = 3;
+    if (how == 5) m[2].velocity.linear[0] = -20;
+    if (how >= 5) count = 3;
+    if (how == 6) m[0].asleep = 0;
+    for (int f = 0; f < 12; f++) step(&s, m, count, &earth);
+    const nsvcd_pose now = stage_pose(&s, m[1].id);
+    double moved = 0;
+    for (int k = 0; k < 3; k++)
+      moved = fmax(moved, fabs((double)now.position[k] - (double)was.position[k]));
+    if (how < 6) CHECK_GE(moved, 0.01);
+    if (how == 5) CHECK_LE(stage_pose(&s, m[0].id).position[0], -0.05);
+    if (how == 6) CHECK(m[0].asleep && m[1].asleep);
+    if (how >= 6) CHECK_EQ(moved, 0);
+    keep_apart(&s, m, count);
+    stage_end(&s);
+  }
+}
+
+static void who_never_sleeps(void) {
+  stage s = stage_begin();
+  add_floor(&s);
+  nsvcd_world_mover m[3] = {add_cube(&s, 0, 0, 0.252, 1, 1), add_cube(&s, 2, 0, 3, 1, 1),
+                            add_cube(&s, 0, 0, 0.754, 1, 1)};
+  m[0].sleepless = m[2].sleepless = 1;
+  m[1].asleep = 1;
+  for (int f = 0; f < 60; f++) step(&s, m, 3, &earth);
+  // what lies on another does not press it on
+  for (int k = 0; k < 3; k += 2) {
+    CHECK_EQ(m[k].asleep, 0);
+    CHECK_EQ(m[k].answer.rests, 1);
+    CHECK_EQ(m[k].velocity.linear[2], 0);
+  }
+  CHECK_EQ(m[1].asleep, 1);
+  CHECK_EQ(stage_pose(&s, m[1].id).position[2], 3);
+  stage_end(&s);
+}
+
+// ---- characters, driven movers
+
+static void a_character_pushes(void) {
+  for (int kind = 0; kind < 2; kind++) {
+    stage s = stage_begin();
+    add_floor(&s);
+    nsvcd_world_mover m[2] = {add_cube(&s, 0, 0, 0.252, 0, 0), add_cube(&s, 1, 0, 0.252, 10, 1)};
+    m[0].how.up[2] = 1;
+    m[0].push_mass = kind ? 60.0f : 0;
+    for (int f = 0; f < 120; f++) {
+      m[0].velocity.linear[0] = f < 30 ? 0 : 1;
+      step(&s, m, 2, &earth);
+      if (f == 29) CHECK_EQ(m[1].asleep, 1);
+      if (f % 30 == 29) keep_apart(&s, m, 2);
+    }
+    const double gone = (double)stage_pose(&s, m[1].id).position[0] - 1;
+    if (kind) CHECK_GE(gone, 0.3);
+    if (!kind) CHECK_EQ(gone, 0);
+    stage_end(&s);
+  }
+}
+
+static void who_is_driven_goes_there(void) {
+  stage s = stage_begin();
+  add_floor(&s);
+  nsvcd_world_mover m[2] = {add_cube(&s, 0, 0, 0.252, 1, 1), add_cube(&s, 0.6, 0, 0.252, 1, 1)};
+  for (int f = 0; f < 30; f++) {
+    const nsvcd_pose to = pose_of(0.01 * f, 0, 0.252);
+    CHECK_EQ(nsvcd_world_drive(s.world, m[0].id, &to), NSVCD_OK);
+    step(&s, m, 2, &earth);
+    const nsvcd_pose now = stage_pose(&s, m[0].id);
+    CHECK(!memcmp(&now, &to, sizeof now));
+  }
+  CHECK_GE(stage_pose(&s, m[1].id).position[0], 0.79);
+  keep_apart(&s, m, 2);
+  stage_end(&s);
+}
+
+// ---- whatever the order
+
+// A heap that falls: the array in another order in each frame, nothing overlaps; and without ties of
+// heights it makes no difference.
+static void any_order_is_safe(void) {
+  enum { HEAP = 16 };
+  nsvcd_pose ends[2][HEAP];
+  for (int shuffled = 0; shuffled < 2; shuffled++) {
+    stage s = stage_begin();
+    nsvcd_world_mover m[HEAP];
+    add_floor(&s);
+    for (int k = 0; k < HEAP; k++)
+      m[k] = add_cube(&s, 0.3 * (k % 2), 0.2 * (k % 3), 0.3 + 0.55 * k + 0.001 * k * k, 1, 1);
+    for (int f = 0; f < 80; f++) {
+      for (int k = HEAP - 1; k > 0 && shuffled; k--) {
+        const int other = (int)(uniform(0, 1) * k);
+        const nsvcd_world_mover mover = m[k];
+        m[k] = m[other];
+        m[other] = mover;
+      }
+      step(&s, m, HEAP, &earth);
+      if (f % 10 == 9) keep_apart(&s, m, HEAP);
+    }
+    for (int k = 0; k < HEAP; k++) ends[shuffled][k] = stage_pose(&s, (size_t)k + 2);
+    stage_end(&s);
+  }
+  CHECK(!memcmp(ends[0], ends[1], sizeof ends[0]));
+}
+
+// ---- bad input
+
+static void bad_steps_are_refused(void) {
+  stage s = stage_begin();
+  const size_t floor = add_floor(&s);
+  nsvcd_world_mover m[3] = {add_cube(&s, 0, 0, 1, 1, 1), add_cube(&s, 1, 0, 1, 1, 1),
+                            add_cube(&s, 2, 0, 1, 1, 1)};
+  size_t size;
+  void *memory = workspace(&size);
+  nsvcd_step_answer answer;
+  for (int k = 0; k < 20; k++) {
+    nsvcd_world_mover bad[3] = {m[0], m[1], m[2]};
+    nsvcd_world_mover kept[3];
+    nsvcd_step_options options = earth;
+    nsvcd_result code = NSVCD_ERROR_INDEX;
+    size_t count = 3;
+    size_t at_fault = m[1].id;
+    float seconds = FRAME;
+    if (k == 0) bad[1].id = at_fault = NSVCD_NOBODY;
+    if (k == 1) bad[1].id = at_fault = 99;
+    if (k == 2) bad[1].id = at_fault = floor;
+    if (k == 3) bad[1].id = at_fault = m[0].id;
+    if (k == 4) bad[1].velocity.linear[1] = NAN, code = NSVCD_ERROR_SPEED;
+    if (k == 5) bad[1].velocity.angular[1] = HUGE_VALF, code = NSVCD_ERROR_SPEED;
+    if (k == 6) bad[1].how.mass = -1, code = NSVCD_ERROR_VALUE;
+    if (k == 7) bad[1].push_mass = NAN, code = NSVCD_ERROR_VALUE;
+    if (k == 8) bad[1].damping = -1, code = NSVCD_ERROR_VALUE;
+    if (k == 9) bad[1].spin_damping = -1, code = NSVCD_ERROR_VALUE;
+    if (k == 10)
+      bad[1].velocity.linear[2] = -NSVCD_MAX_COORDINATE, at_fault = m[1].id,
+      code = NSVCD_ERROR_SPEED;
+    if (k >= 11) at_fault = NSVCD_NOBODY;
+    if (k == 11) options.gravity[1] = NAN, code = NSVCD_ERROR_VALUE;
+    if (k == 12) options.quiet = -1, code = NSVCD_ERROR_SPEED;
+    if (k == 13) options.calm = NAN, code = NSVCD_ERROR_TIMES;
+    if (k == 14) seconds = 0, code = NSVCD_ERROR_TIMES;
+    if (k == 15) seconds = NAN, code = NSVCD_ERROR_TIMES;
+    if (k == 16) count = 1000;
+    if (k >= 17) code = k == 19 ? NSVCD_ERROR_WORKSPACE : NSVCD_ERROR_ARGUMENT;
+    memcpy(kept, bad, sizeof kept);
+    memset(&answer, 0, sizeof answer);
+    CHECK_EQ(nsvcd_world_step(k == 17 ? NULL : s.world, k == 18 ? NULL : bad, count, &options,
+                              seconds, memory, k == 19 ? 64 : size, &answer),
+             code);
+    CHECK_EQ(answer.refused, at_fault);
+    CHECK(!memcmp(kept, bad, sizeof kept));
+    for (int n = 0; n < 3; n++) CHECK_EQ(stage_pose(&s, m[n].id).position[2], 1);
+  }
+  // who is about to leave the coordinates stays, and all others move
+  m[1].velocity.linear[0] = 9e5f;
+  CHECK_EQ(nsvcd_world_step(s.world, m, 3, &earth, 10, memory, size, &answer), NSVCD_ERROR_POSE);
+  CHECK_EQ(answer.refused, m[1].id);
+  CHECK_EQ(stage_pose(&s, m[1].id).position[0], 1);
+  CHECK_LE(stage_pose(&s, m[2].id).position[2], 0.9);
+  // nobody at all, and the other way up, and without an answer
+  CHECK_EQ(nsvcd_world_step(s.world, NULL, 0, NULL, FRAME, memory, size, NULL), NSVCD_OK);
+  m[1].velocity.linear[0] = 0;
+  m[0].asleep = m[2].asleep = 0;
+  const nsvcd_step_options up = {{0, 0, 9.81f}, 0, 0};
+  for (int f = 0; f < 30; f++) step(&s, m, 3, &up);
+  CHECK_GE(stage_pose(&s, m[0].id).position[2], 1);
+  stage_end(&s);
+}
+
+// ---- masses
+
+static nsvcd_result mass_of(const shapes_mesh *shape, nsvcd_mass *mass) {
+  nsvcd_mesh mesh;
+  float *narrow = (float *)malloc(3 * shape->vertices * sizeof *narrow);
+  if (!narrow) exit(1);
+  for (size_t k = 0; k < 3 * shape->vertices; k++) narrow[k] = (float)shape->positions[k];
+  mesh.positions = narrow;
+  mesh.indices = shape->indices;
+  mesh.vertex_count = shape->vertices;
+  mesh.triangle_count = shape->triangles;
+  const nsvcd_result result = nsvcd_mesh_mass(&mesh, mass);
+  free(narrow);
+  return result;
+}
+
+static void masses_are_those_on_paper(void) {
+  for (int kind = 0; kind < 6; kind++) {
+    shapes_mesh shape;
+    nsvcd_mass mass;
+    memset(&shape, 0, sizeof shape);
+    if (kind < 4) shapes_box_at(&shape, 1, 2, 3, 1, 2, 0.5);
+    if (kind == 1) shape.triangles--;
+    if (kind == 2) shape.triangles -= 4;  // a pair of faces: areas still add up to nothing
+    if (kind == 3)
+      for (size_t k = 0; k < shape.triangles; k++) {
+        const uint32_t first = shape.indices[3 * k];
+        shape.indices[3 * k] = shape.indices[3 * k + 1];
+        shape.indices[3 * k + 1] = first;
+      }
+    if (kind == 4) shapes_cylinder(&shape, 0.5, 2, 256);
+    if (kind == 5) {
+      shapes_box_at(&shape, -3, 0, 0, 1, 1, 1);
+      shapes_box_at(&shape, 1, 0, 0, 1, 1, 3);
+    }
+    CHECK_EQ(mass_of(&shape, &mass), NSVCD_OK);
+    CHECK_EQ(mass.is_of_box, kind > 0 && kind < 4);
+    if (kind < 4) {
+      CHECK_NEAR(mass.volume, 1, 1e-5);
+      for (int k = 0; k < 3; k++) CHECK_NEAR(mass.centre[k], k + 1, 1e-5);
+      CHECK_NEAR(mass.inertia[0], 4.25 / 12, 1e-5);
+      CHECK_NEAR(mass.inertia[1], 1.25 / 12, 1e-5);
+      CHECK_NEAR(mass.inertia[2], 5.0 / 12, 1e-5);
+    }
+    if (kind == 4) {
+      CHECK_NEAR(mass.volume, 0.5 * SHAPES_PI, 1e-3);
+      CHECK_NEAR(mass.inertia[2], 0.125, 1e-4);
+      CHECK_NEAR(mass.inertia[0], 0.0625 + 1.0 / 3, 1e-3);
+    }
+    if (kind == 5) {
+      CHECK_NEAR(mass.volume, 4, 1e-5);
+      CHECK_NEAR(mass.centre[0], 0, 1e-5);
+      CHECK_NEAR(mass.inertia[1], (1.0 / 6 + 9) / 4 + 0.75 * (10.0 / 12 + 1), 1e-4);
+    }
+    shape.indices[0] = 1000000;
+    CHECK_EQ(mass_of(&shape, &mass), NSVCD_ERROR_INDEX);
+    shape.triangles = 0;
+    CHECK_EQ(mass_of(&shape, &mass), NSVCD_ERROR_EMPTY);
+    shapes_free(&shape);
+  }
+  CHECK_EQ(nsvcd_mesh_mass(NULL, NULL), NSVCD_ERROR_ARGUMENT);
+}
+
+void test_step(void) {
+  RUN(seven_stacks_of_five_stand);
+  RUN(two_share_their_momentum);
+  RUN(a_crowd_gains_no_energy);
+  RUN(what_sleeps_wakes);
+  RUN(who_never_sleeps);
+  RUN(a_character_pushes);
+  RUN(who_is_driven_goes_there);
+  RUN(any_order_is_safe);
+  RUN(bad_steps_are_refused);
+  RUN(masses_are_those_on_paper);
+}
+
+CHECK_ALONE(test_step)
