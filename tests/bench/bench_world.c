@@ -84,7 +84,8 @@ static void print_times(const char *name, double *times, size_t count, double mo
   for (size_t k = 0; k < count; k++) sum += times[k];
   meter_sort(times, count);
   printf("  %-36s median %6.1f  mean %6.1f  99 %% %6.1f  worst %6.1f us  %5.1f\n", name,
-         times[count / 2], sum / (double)count, times[count * 99 / 100], times[count - 1], more);
+         times[count / 2], sum / (double)count, times[count * 99 / 100], times[count - 1],
+         more);
 }
 
 // ------------------------------------------------------------------------------------------ casts
@@ -95,65 +96,91 @@ typedef struct cast {
   double least_way, most_way, turn;  // metres, radians
 } cast;
 
-static void print_cast(const bench *b, const cast *c) {
-  static double times[ASKED];
-  shapes_rng rng = {7};
-  size_t count = 0;
-  size_t hits = 0;
-  while (count < ASKED) {
+// A way of the body from a place where it is free.
+static void draw_cast(const bench *b, const cast *c, shapes_rng *rng, nsvcd_pose path[2]) {
+  const double radius = (double)nsvcd_body_describe(c->body).radius;
+  nsvcd_answer answer;
+  do {
     nsvcd_question q;
-    nsvcd_answer answer;
-    nsvcd_pose path[2];
     double way[3], turn[4];
-    const double x = shapes_uniform(&rng, -9, 9);
-    const double y = shapes_uniform(&rng, -9, 9);
-    const double radius = (double)nsvcd_body_describe(c->body).radius;
-    const double z = level_height(x, y) + shapes_uniform(&rng, 0, 0.1) + radius;
-    const double length = shapes_uniform(&rng, c->least_way, c->most_way);
-    shapes_direction(&rng, way);
-    shapes_quaternion(&rng, turn);
-    memset(&q, 0, sizeof q);
+    const double x = shapes_uniform(rng, -9, 9);
+    const double y = shapes_uniform(rng, -9, 9);
+    const double z = level_height(x, y) + shapes_uniform(rng, 0, 0.1) + radius;
+    const double length = shapes_uniform(rng, c->least_way, c->most_way);
+    shapes_direction(rng, way);
+    shapes_quaternion(rng, turn);
     path[0] = path[1] = pose_at(x, y, z, c->turn > 0 ? turn : NULL);
-    for (int k = 0; k < 3; k++) path[1].position[k] += (float)((k < 2 ? 1 : 0.5) * length * way[k]);
+    for (int k = 0; k < 3; k++)
+      path[1].position[k] += (float)((k < 2 ? 1 : 0.5) * length * way[k]);
     if (c->turn > 0) {
       double to[4] = {0, 0, sin(0.5 * c->turn), cos(0.5 * c->turn)}, by[4];
       oracle_quat_mul(to, turn, by);
       for (int k = 0; k < 4; k++) path[1].rotation[k] = (float)by[k];
     }
+    memset(&q, 0, sizeof q);
     q.a.body = c->body;
     q.a.poses = path;
     q.a.count = 1;
     q.b.body = b->level;
     if (nsvcd_sweep(&q, b->workspace, b->size, &answer)) exit(REFUSED);
-    if (answer.verdict != NSVCD_FREE) continue;
-    q.a.count = 2;
-    q.ask = NSVCD_ASK_FIRST;
-    q.to = 1e-3f;
-    times[count++] = microseconds(b, &q, &answer);
+  } while (answer.verdict != NSVCD_FREE);
+}
+
+// Microseconds of its first contact.
+static double ask_cast(const bench *b, const cast *c, const nsvcd_pose path[2],
+                       nsvcd_answer *answer) {
+  nsvcd_question q;
+  memset(&q, 0, sizeof q);
+  q.a.body = c->body;
+  q.a.poses = path;
+  q.a.count = 2;
+  q.b.body = b->level;
+  q.ask = NSVCD_ASK_FIRST;
+  q.to = 1e-3f;
+  return microseconds(b, &q, answer);
+}
+
+static void print_cast(const bench *b, const cast *c) {
+  static double times[ASKED];
+  shapes_rng rng = {7};
+  size_t hits = 0;
+  for (size_t k = 0; k < ASKED; k++) {
+    nsvcd_answer answer;
+    nsvcd_pose path[2];
+    draw_cast(b, c, &rng, path);
+    times[k] = ask_cast(b, c, path, &answer);
     hits += answer.verdict == NSVCD_HIT;
   }
   print_times(c->name, times, ASKED, 100.0 * (double)hits / ASKED);
 }
 
-static void print_casts(const bench *b) {
+enum { CASTS = 6 };
+
+static void make_casts(const bench *b, cast *casts) {
   static const float ends[2][3] = {{0, 0, -0.6f}, {0, 0, 0.6f}};
   static const float half[3] = {0.25f, 0.25f, 0.25f};
   static const float plank[3] = {0.6f, 0.06f, 0.02f};
-  cast casts[6] = {{"ray of 1 mm, 2 to 20 m", NULL, 2, 20, 0},
-                   {"sphere of 0.1 m, 0.1 to 1 m", NULL, 0.1, 1, 0},
-                   {"capsule of 1.8 m, 1 to 10 cm", NULL, 0.01, 0.1, 0},
-                   {"box of 0.5 m, 1 to 10 cm", NULL, 0.01, 0.1, 0},
-                   {"turning plank of 1.2 m, to 10 cm", NULL, 0.01, 0.1, 0.2},
-                   {"chair that turns, 1 to 10 cm", b->bodies[3], 0.01, 0.1, 0.2}};
+  const cast all[CASTS] = {{"ray of 1 mm, 2 to 20 m", NULL, 2, 20, 0},
+                           {"sphere of 0.1 m, 0.1 to 1 m", NULL, 0.1, 1, 0},
+                           {"capsule of 1.8 m, 1 to 10 cm", NULL, 0.01, 0.1, 0},
+                           {"box of 0.5 m, 1 to 10 cm", NULL, 0.01, 0.1, 0},
+                           {"turning plank of 1.2 m, to 10 cm", NULL, 0.01, 0.1, 0.2},
+                           {"chair that turns, 1 to 10 cm", b->bodies[3], 0.01, 0.1, 0.2}};
+  memcpy(casts, all, sizeof all);
   if (nsvcd_encode_sphere(5e-4f, NULL, &casts[0].body) ||
       nsvcd_encode_sphere(0.05f, NULL, &casts[1].body) ||
       nsvcd_encode_capsule(ends[0], ends[1], 0.3f, NULL, &casts[2].body) ||
       nsvcd_encode_box(half, 0, NULL, &casts[3].body) ||
       nsvcd_encode_box(plank, 0, NULL, &casts[4].body))
     exit(REFUSED);
+}
+
+static void print_casts(const bench *b) {
+  cast casts[CASTS];
+  make_casts(b, casts);
   printf("first contacts to 1 mm; the last column: of 100, how many hit\n");
-  for (int k = 0; k < 6; k++) print_cast(b, &casts[k]);
-  for (int k = 0; k < 5; k++) nsvcd_body_free(casts[k].body, NULL);
+  for (int k = 0; k < CASTS; k++) print_cast(b, &casts[k]);
+  for (int k = 0; k < CASTS - 1; k++) nsvcd_body_free(casts[k].body, NULL);
 }
 
 // ------------------------------------------------------------------------------------------- rest
@@ -198,7 +225,8 @@ static void print_rest(const bench *b) {
     if (answer.verdict == NSVCD_HIT && answer.time.low > 0) rests[k++] = answer.safe.a;
   }
   printf(
-      "props half a millimetre above a level, by 2.7 mm down or at rest; the last column: units\n");
+      "props half a millimetre above a level, by 2.7 mm down or at rest; the last column: "
+      "units\n");
   for (size_t n = 0; n <= sizeof all / sizeof *all; n++) {
     const int is_contacts = n == sizeof all / sizeof *all;
     const asked *a = &all[is_contacts ? n - 1 : n];
@@ -263,61 +291,86 @@ static int is_free(const bench *b, const nsvcd_world *world, size_t id) {
   return answer.verdict == NSVCD_FREE;
 }
 
-static size_t print_frames(const bench *b, size_t movers, size_t frames) {
-  const size_t size = nsvcd_world_size(movers + 1);
+// Movers above a level, and what they are.
+typedef struct scene {
+  void *memory;
   nsvcd_world *world;
-  size_t level;
-  size_t *ids = (size_t *)allocate(movers * sizeof *ids);
-  nsvcd_velocity *speeds = (nsvcd_velocity *)allocate(movers * sizeof *speeds);
-  nsvcd_slide_options *options = (nsvcd_slide_options *)allocate(movers * sizeof *options);
-  nsvcd_slide_answer *answers = (nsvcd_slide_answer *)allocate(movers * sizeof *answers);
-  oracle_mesh *exact = (oracle_mesh *)allocate((movers + 1) * sizeof *exact);
-  double *times = (double *)allocate(frames * sizeof *times);
-  shapes_rng rng = {13};
-  memset(speeds, 0, movers * sizeof *speeds);
-  memset(options, 0, movers * sizeof *options);
-  memset(answers, 0, movers * sizeof *answers);
-  void *memory = allocate(size);
-  if (nsvcd_world_begin(memory, size, movers + 1, &world)) exit(REFUSED);
+  size_t movers, *ids;
+  nsvcd_slide_options *options;
+  oracle_mesh *exact;  // by id - 1
+} scene;
+
+static void set_mover(const bench *b, scene *s, size_t k, shapes_rng *rng) {
+  const shapes_mesh *mesh = &b->props[k % PROPS];
+  const size_t side = (size_t)ceil(sqrt((double)s->movers));
+  const double step = fmin(0.7, (SIDE - 3) / (double)side);
+  const double x = step * ((double)(k % side) - 0.5 * (double)(side - 1));
+  const double y = step * ((double)(k / side) - 0.5 * (double)(side - 1));
+  double turn[4], low[3], high[3];
   nsvcd_world_body body;
+  shapes_quaternion(rng, turn);
+  memset(&body, 0, sizeof body);
+  body.body = b->bodies[k % PROPS];
+  body.pose = pose_at(x, y, level_height(x, y) + 1.6 + 0.6 * (double)(k % 3), turn);
+  if (nsvcd_world_add(s->world, &body, &s->ids[k])) exit(REFUSED);
+  for (int tries = 0; tries < 100 && !is_free(b, s->world, s->ids[k]); tries++) {
+    body.pose.position[2] += 0.1f;
+    if (nsvcd_world_move(s->world, s->ids[k], &body.pose)) exit(REFUSED);
+  }
+  if (!oracle_mesh_init(&s->exact[k + 1], mesh->positions, mesh->vertices, mesh->indices,
+                        mesh->triangles, 1))
+    exit(REFUSED);
+  shapes_bounds(mesh, low, high);
+  nsvcd_slide_options *o = &s->options[k];
+  for (int i = 0; i < 3; i++) {
+    const double u = high[(i + 1) % 3] - low[(i + 1) % 3];
+    const double v = high[(i + 2) % 3] - low[(i + 2) % 3];
+    o->inertia[i] = (float)(fmax(u * u + v * v, 1e-3) / 12);
+  }
+  o->mass = 1;
+  o->friction = 0.5f;
+  o->clearance = o->margin = 0.001f;
+}
+
+static void scene_begin(const bench *b, size_t movers, scene *s) {
+  const size_t size = nsvcd_world_size(movers + 1);
+  shapes_rng rng = {13};
+  size_t level;
+  nsvcd_world_body body;
+  s->movers = movers;
+  s->memory = allocate(size);
+  s->ids = (size_t *)allocate(movers * sizeof *s->ids);
+  s->options = (nsvcd_slide_options *)allocate(movers * sizeof *s->options);
+  s->exact = (oracle_mesh *)allocate((movers + 1) * sizeof *s->exact);
+  memset(s->options, 0, movers * sizeof *s->options);
+  if (nsvcd_world_begin(s->memory, size, movers + 1, &s->world)) exit(REFUSED);
   memset(&body, 0, sizeof body);
   body.body = b->level;
   body.pose.rotation[3] = 1;
   body.fixed = 1;
-  if (nsvcd_world_add(world, &body, &level)) exit(REFUSED);
-  if (!oracle_mesh_init(&exact[0], b->mesh.positions, b->mesh.vertices, b->mesh.indices,
+  if (nsvcd_world_add(s->world, &body, &level)) exit(REFUSED);
+  if (!oracle_mesh_init(&s->exact[0], b->mesh.positions, b->mesh.vertices, b->mesh.indices,
                         b->mesh.triangles, 1))
     exit(REFUSED);
-  const size_t side = (size_t)ceil(sqrt((double)movers));
-  const double step = fmin(0.7, (SIDE - 3) / (double)side);
-  for (size_t k = 0; k < movers; k++) {
-    double turn[4], low[3], high[3];
-    const shapes_mesh *mesh = &b->props[k % PROPS];
-    const double x = step * ((double)(k % side) - 0.5 * (double)(side - 1));
-    const double y = step * ((double)(k / side) - 0.5 * (double)(side - 1));
-    shapes_quaternion(&rng, turn);
-    memset(&body, 0, sizeof body);
-    body.body = b->bodies[k % PROPS];
-    body.pose = pose_at(x, y, level_height(x, y) + 1.6 + 0.6 * (double)(k % 3), turn);
-    if (nsvcd_world_add(world, &body, &ids[k])) exit(REFUSED);
-    for (int tries = 0; tries < 100 && !is_free(b, world, ids[k]); tries++) {
-      body.pose.position[2] += 0.1f;
-      if (nsvcd_world_move(world, ids[k], &body.pose)) exit(REFUSED);
-    }
-    if (!oracle_mesh_init(&exact[k + 1], mesh->positions, mesh->vertices, mesh->indices,
-                          mesh->triangles, 1))
-      exit(REFUSED);
-    shapes_bounds(mesh, low, high);
-    nsvcd_slide_options *o = &options[k];
-    for (int i = 0; i < 3; i++) {
-      const double u = high[(i + 1) % 3] - low[(i + 1) % 3];
-      const double v = high[(i + 2) % 3] - low[(i + 2) % 3];
-      o->inertia[i] = (float)(fmax(u * u + v * v, 1e-3) / 12);
-    }
-    o->mass = 1;
-    o->friction = 0.5f;
-    o->clearance = o->margin = 0.001f;
-  }
+  for (size_t k = 0; k < movers; k++) set_mover(b, s, k, &rng);
+}
+
+static void scene_end(scene *s) {
+  for (size_t k = 0; k <= s->movers; k++) oracle_mesh_free(&s->exact[k]);
+  free(s->memory);
+  free(s->ids);
+  free(s->options);
+  free(s->exact);
+}
+
+static size_t print_frames(const bench *b, size_t movers, size_t frames) {
+  scene s;
+  nsvcd_velocity *speeds = (nsvcd_velocity *)allocate(movers * sizeof *speeds);
+  nsvcd_slide_answer *answers = (nsvcd_slide_answer *)allocate(movers * sizeof *answers);
+  double *times = (double *)allocate(frames * sizeof *times);
+  memset(speeds, 0, movers * sizeof *speeds);
+  memset(answers, 0, movers * sizeof *answers);
+  scene_begin(b, movers, &s);
   size_t questions = 0;
   size_t resting = 0;
   for (size_t frame = 0; frame < frames; frame++) {
@@ -326,7 +379,7 @@ static size_t print_frames(const bench *b, size_t movers, size_t frames) {
     for (size_t k = 0; k < movers; k++) {
       speeds[k].linear[2] -= 9.81f / 60;
       for (int i = 0; i < 3; i++) speeds[k].angular[i] *= 0.98f;
-      if (nsvcd_world_slide(world, ids[k], &options[k], 1.0f / 60, b->workspace, b->size,
+      if (nsvcd_world_slide(s.world, s.ids[k], &s.options[k], 1.0f / 60, b->workspace, b->size,
                             &speeds[k], &answers[k]))
         exit(REFUSED);
       questions += answers[k].questions;
@@ -338,23 +391,31 @@ static size_t print_frames(const bench *b, size_t movers, size_t frames) {
   for (size_t k = 0; k < frames; k++) sum += times[k];
   const double last = times[frames - 1];
   meter_sort(times, frames);
-  const size_t overlaps = overlaps_of(world, exact, movers);
+  const size_t overlaps = overlaps_of(s.world, s.exact, movers);
   printf(
-      "%zu movers, %zu frames: median %.2f  mean %.2f  99 %% %.2f  worst %.2f  last %.2f ms; %.1f "
+      "%zu movers, %zu frames: median %.2f  mean %.2f  99 %% %.2f  worst %.2f  last %.2f ms; "
+      "%.1f "
       "questions a frame; %zu rest at the end, %zu overlap\n",
       movers, frames, times[frames / 2], sum / (double)frames, times[frames * 99 / 100],
       times[frames - 1], last, (double)questions / (double)frames, resting, overlaps);
-  for (size_t k = 0; k <= movers; k++) oracle_mesh_free(&exact[k]);
-  free(memory);
-  free(ids);
+  scene_end(&s);
   free(speeds);
-  free(options);
   free(answers);
-  free(exact);
   free(times);
   return overlaps;
 }
 
+static void end(bench *b) {
+  for (int k = 0; k < PROPS; k++) {
+    nsvcd_body_free(b->bodies[k], NULL);
+    shapes_free(&b->props[k]);
+  }
+  nsvcd_body_free(b->level, NULL);
+  shapes_free(&b->mesh);
+  free(b->workspace);
+}
+
+#ifndef WORLD_PEERS  // world_peers.cc has a main of its own
 int main(int argc, char **argv) {
   static bench b;
   size_t overlaps = 0;
@@ -367,12 +428,7 @@ int main(int argc, char **argv) {
     if (argc > 2) overlaps += print_frames(&b, (size_t)strtoul(argv[2], NULL, 10), frames);
     if (argc <= 2) overlaps += print_frames(&b, 50, frames) + print_frames(&b, 1000, frames);
   }
-  for (int k = 0; k < PROPS; k++) {
-    nsvcd_body_free(b.bodies[k], NULL);
-    shapes_free(&b.props[k]);
-  }
-  nsvcd_body_free(b.level, NULL);
-  shapes_free(&b.mesh);
-  free(b.workspace);
+  end(&b);
   return overlaps ? REFUSED : DONE;
 }
+#endif
