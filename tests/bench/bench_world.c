@@ -84,8 +84,7 @@ static void print_times(const char *name, double *times, size_t count, double mo
   for (size_t k = 0; k < count; k++) sum += times[k];
   meter_sort(times, count);
   printf("  %-36s median %6.1f  mean %6.1f  99 %% %6.1f  worst %6.1f us  %5.1f\n", name,
-         times[count / 2], sum / (double)count, times[count * 99 / 100], times[count - 1],
-         more);
+         times[count / 2], sum / (double)count, times[count * 99 / 100], times[count - 1], more);
 }
 
 // ------------------------------------------------------------------------------------------ casts
@@ -110,8 +109,7 @@ static void draw_cast(const bench *b, const cast *c, shapes_rng *rng, nsvcd_pose
     shapes_direction(rng, way);
     shapes_quaternion(rng, turn);
     path[0] = path[1] = pose_at(x, y, z, c->turn > 0 ? turn : NULL);
-    for (int k = 0; k < 3; k++)
-      path[1].position[k] += (float)((k < 2 ? 1 : 0.5) * length * way[k]);
+    for (int k = 0; k < 3; k++) path[1].position[k] += (float)((k < 2 ? 1 : 0.5) * length * way[k]);
     if (c->turn > 0) {
       double to[4] = {0, 0, sin(0.5 * c->turn), cos(0.5 * c->turn)}, by[4];
       oracle_quat_mul(to, turn, by);

@@ -33,9 +33,9 @@ static btBvhTriangleMeshShape *level_shape(const shapes_mesh &mesh) {
   static std::vector<int> indices;
   points.assign(mesh.positions, mesh.positions + 3 * mesh.vertices);
   indices.assign(mesh.indices, mesh.indices + 3 * mesh.triangles);
-  static btTriangleIndexVertexArray triangles((int)mesh.triangles, indices.data(),
-                                              3 * sizeof(int), (int)mesh.vertices,
-                                              points.data(), 3 * sizeof(btScalar));
+  static btTriangleIndexVertexArray triangles((int)mesh.triangles, indices.data(), 3 * sizeof(int),
+                                              (int)mesh.vertices, points.data(),
+                                              3 * sizeof(btScalar));
   return new btBvhTriangleMeshShape(&triangles, true);
 }
 
@@ -120,8 +120,7 @@ static void print_peer_cast(const bench &b, const cast &c, btCollisionObject *le
 }
 
 static int exact_of(const shapes_mesh &mesh, oracle_mesh *exact) {
-  return oracle_mesh_init(exact, mesh.positions, mesh.vertices, mesh.indices, mesh.triangles,
-                          1);
+  return oracle_mesh_init(exact, mesh.positions, mesh.vertices, mesh.indices, mesh.triangles, 1);
 }
 
 static void print_peer_casts(const bench &b, btBvhTriangleMeshShape *shape) {
@@ -174,8 +173,7 @@ static double median_gap(const scene &s) {
     const size_t a = pairs[k].a;
     const size_t b = pairs[k].b;
     nsvcd_world_body one, other;
-    if (nsvcd_world_get(s.world, a, &one) || nsvcd_world_get(s.world, b, &other))
-      exit(REFUSED);
+    if (nsvcd_world_get(s.world, a, &one) || nsvcd_world_get(s.world, b, &other)) exit(REFUSED);
     const oracle_pose at = pose_widened(&one.pose);
     const oracle_pose there = pose_widened(&other.pose);
     oracle_search search;
@@ -280,9 +278,9 @@ static void print_peer_frames(const bench &b, btBvhTriangleMeshShape *level, siz
       "last "
       "%.2f ms; %zu sleep at the end, %zu pairs overlap, %zu are below the level; the gap to "
       "what is nearest %.1f mm in the median\n",
-      movers, frames, how.name, times[frames / 2], sum / (double)frames,
-      times[frames * 99 / 100], times[frames - 1], last, asleep,
-      overlaps_of(s.world, s.exact, movers), below, 1e3 * median_gap(s));
+      movers, frames, how.name, times[frames / 2], sum / (double)frames, times[frames * 99 / 100],
+      times[frames - 1], last, asleep, overlaps_of(s.world, s.exact, movers), below,
+      1e3 * median_gap(s));
   for (size_t k = 0; k < movers; k++) {
     world.removeRigidBody(bodies[k]);
     delete bodies[k];
