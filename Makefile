@@ -30,10 +30,16 @@ CCD_CFLAGS := -DHAVE_LIBCCD $(shell pkg-config --cflags ccd 2>/dev/null)
 CCD_LIBS := $(shell pkg-config --libs ccd 2>/dev/null || echo -lccd)
 endif
 
-# Bullet answers what bench_world asks: Debian's libbullet-dev.
+# Bullet answers what bench_world asks: Debian's libbullet-dev; or BULLET=folder, its source, compiled as we are.
+ifdef BULLET
+HAVE_BULLET := 1
+BULLET_CFLAGS = -isystem $(BULLET)/src -w
+BULLET_LIBS = $(wildcard $(BULLET)/src/bt*All.cpp)
+else
 HAVE_BULLET := $(shell pkg-config --exists bullet 2>/dev/null && echo 1)
 BULLET_CFLAGS = $(patsubst -I%,-isystem %,$(shell pkg-config --cflags bullet))
 BULLET_LIBS = $(shell pkg-config --libs bullet)
+endif
 
 ifeq ($(BENCH),quick)
 COUNT ?= 200

@@ -398,13 +398,17 @@ static size_t print_frames(const bench *b, size_t movers, size_t frames) {
   for (size_t k = 0; k < frames; k++) sum += times[k];
   const double last = times[frames - 1];
   meter_sort(times, frames);
+  size_t below = 0;
+  for (size_t k = 0; k < movers; k++) {
+    const float *at = answers[k].pose.position;
+    below += (double)at[2] < level_height((double)at[0], (double)at[1]);
+  }
   const size_t overlaps = overlaps_of(s.world, s.exact, movers);
   printf(
-      "%zu movers, %zu frames: median %.2f  mean %.2f  99 %% %.2f  worst %.2f  last %.2f ms; "
-      "%.1f "
-      "questions a frame; %zu rest at the end, %zu overlap\n",
+      "%zu movers, %zu frames: median %.2f  mean %.2f  99 %% %.2f  worst %.2f  last %.2f ms; %.1f "
+      "questions a frame; %zu rest at the end, %zu overlap, %zu are below the level\n",
       movers, frames, times[frames / 2], sum / (double)frames, times[frames * 99 / 100],
-      times[frames - 1], last, (double)questions / (double)frames, resting, overlaps);
+      times[frames - 1], last, (double)questions / (double)frames, resting, overlaps, below);
   scene_end(&s);
   free(speeds);
   free(answers);
