@@ -30,6 +30,17 @@ CCD_CFLAGS := -DHAVE_LIBCCD $(shell pkg-config --cflags ccd 2>/dev/null)
 CCD_LIBS := $(shell pkg-config --libs ccd 2>/dev/null || echo -lccd)
 endif
 
+# Bullet answers what bench_world asks: Debian's libbullet-dev; or BULLET=folder, its source, compiled as we are.
+ifdef BULLET
+HAVE_BULLET := 1
+BULLET_CFLAGS = -isystem $(BULLET)/src -w
+BULLET_LIBS = $(wildcard $(BULLET)/src/bt*All.cpp)
+else
+HAVE_BULLET := $(shell pkg-config --exists bullet 2>/dev/null && echo 1)
+BULLET_CFLAGS = $(patsubst -I%,-isystem %,$(shell pkg-config --cflags bullet))
+BULLET_LIBS = $(shell pkg-config --libs bullet)
+endif
+
 ifeq ($(BENCH),quick)
 COUNT ?= 200
 endif
@@ -38,7 +49,7 @@ endif
 .PHONY: shared static release install uninstall check-packages
 .PHONY: test check check-release
 .PHONY: bench-one-path python mutants fuzz coverage mutate
-.PHONY: bench bench-certificates bench-asks bench-casts bench-distance bench-flags bench-level bench-looks bench-routes bench-scale bench-plan race profile instructions sizes
+.PHONY: bench bench-certificates bench-asks bench-casts bench-distance bench-flags bench-level bench-looks bench-routes bench-scale bench-world bench-plan race profile instructions sizes
 .DELETE_ON_ERROR:
 
 PLANNERS = build/dish_insertion build/bimanual_insertion build/mining_site

@@ -469,7 +469,7 @@ NSVCDDEF nsvcd_result nsvcd_mesh_cut(const nsvcd_mesh *mesh, const float low[3],
 //
 // The hull is computed exactly for points on a grid: along each axis a point is moved by less than
 // 1e-9 of the side of the box of all. No point is farther outside of the mesh than 2e-9 of the
-// sides. 100,000 points take 10 to 500 ms (tests/test_shapes.c).
+// sides. 100,000 points take 9 to 158 ms (tests/test_shapes.c).
 //   points     (count, 3) metres, not NULL, not kept
 //   allocator  NULL: malloc and free
 //   hull       not NULL; free it with nsvcd_mesh_free; left as it was on failure

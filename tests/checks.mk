@@ -17,7 +17,10 @@ check-many: build/tests  # the tests, five times as many trials each
 build/benches/%: tests/bench/%.c $(HELPERS) $(PEERS) $(SCENERY) $(LIBRARY)
 	@mkdir -p $(@D)
 	$(CC) -O0 -DNSVCD_NO_DISPATCH -std=c99 $(WARNINGS) -Werror -Wno-unused-function $(CCD_CFLAGS) -o $@ $< $(CCD_LIBS) -lm
-check-benches: $(BENCHES:build/%=build/benches/%)  # benchmarks and generators compile, without a warning
+build/benches/world_peers: tests/bench/world_peers.cc tests/bench/bench_world.c $(HELPERS) $(PEERS) $(SCENERY) $(LIBRARY)
+	@mkdir -p $(@D)
+	$(CXX) -O0 -DNSVCD_NO_DISPATCH -std=c++11 $(WARNINGS) -Werror -Wno-unused-function $(BULLET_CFLAGS) -o $@ $< $(BULLET_LIBS) -lm
+check-benches: $(BENCHES:build/%=build/benches/%) $(if $(HAVE_BULLET),build/benches/world_peers)  # benchmarks and generators compile, without a warning
 	@echo "benches: $(notdir $^)"
 check-trainer:  # the trainer's own tests, on the CPU
 	@for python in $(PYTHON) /usr/bin/python3; do \
@@ -170,7 +173,7 @@ check-one-path:  # NSVCD_ONE_PATH: the same bits from several compilers, sets of
 	CC="$(CC)" tests/one_path.sh
 
 WRITTEN = train examples examples/scenery examples/svcd examples/firmware examples/python examples/verify examples/web packages/project tests tests/promises tests/bench
-FORMATTED = $(ROOMS) $(wildcard $(WRITTEN:%=%/*.[ch]))
+FORMATTED = $(ROOMS) $(wildcard $(WRITTEN:%=%/*.[ch]) tests/bench/*.cc)
 format:  ## clang-format on what is written by hand
 	clang-format -i $(FORMATTED)
 # Version 14 decides, as in Debian 12: others break lines elsewhere.

@@ -6,9 +6,11 @@
 #define NEURALSVCD_IMPLEMENTATION
 #define NEURALSVCD_CERTIFY_IMPLEMENTATION
 #define NEURALSVCD_ROBOT_IMPLEMENTATION
+#define NEURALSVCD_WORLD_IMPLEMENTATION
 #include "neuralsvcd.h"
 #include "extras/neuralsvcd_certify.h"
 #include "extras/neuralsvcd_robot.h"
+#include "extras/neuralsvcd_world.h"
 #include "examples/scenery/mesh_files.h"
 
 // The functions as the module calls them. If the header says otherwise, this does not compile.
@@ -60,6 +62,21 @@ size_t nsvcd_certify_workspace_size(const nsvcd_question *, const nsvcd_tree *, 
 nsvcd_result nsvcd_certify(const nsvcd_question *, const nsvcd_tree *, const nsvcd_tree *,
                            const nsvcd_certify_options *, void *, size_t, uint8_t *, size_t,
                            nsvcd_certificate *);
+size_t nsvcd_world_size(size_t);
+nsvcd_result nsvcd_world_begin(void *, size_t, size_t, nsvcd_world **);
+nsvcd_result nsvcd_world_add(nsvcd_world *, const nsvcd_world_body *, size_t *);
+nsvcd_result nsvcd_world_move(nsvcd_world *, size_t, const nsvcd_pose *);
+nsvcd_result nsvcd_world_remove(nsvcd_world *, size_t);
+nsvcd_result nsvcd_world_get(const nsvcd_world *, size_t, nsvcd_world_body *);
+nsvcd_result nsvcd_world_drive(nsvcd_world *, size_t, const nsvcd_pose *);
+nsvcd_result nsvcd_world_arrive(nsvcd_world *);
+nsvcd_result nsvcd_world_sweep(const nsvcd_world *, const nsvcd_world_question *, void *, size_t,
+                               nsvcd_world_answer *);
+nsvcd_result nsvcd_world_list(const nsvcd_world *, const nsvcd_world_question *, void *, size_t,
+                              size_t *, size_t, size_t *);
+nsvcd_result nsvcd_world_pairs(const nsvcd_world *, float, nsvcd_body_pair *, size_t, size_t *);
+nsvcd_result nsvcd_world_slide(nsvcd_world *, size_t, const nsvcd_slide_options *, float, void *,
+                               size_t, nsvcd_velocity *, nsvcd_slide_answer *);
 
 // A mesh from the bytes of a file, of which the name may be "". placed: its origin, in the file's
 // units, and its scale. Returns why there is none, or NULL.
@@ -205,6 +222,29 @@ static const neuralsvcd_layout layouts[] = {
     STRUCT(certify_options), FIELD(certify_options, answer), FIELD(certify_options, visits),
     STRUCT(certificate), FIELD(certificate, verdict), FIELD(certificate, why), FIELD(certificate, inside),
     FIELD(certificate, time), FIELD(certificate, size), FIELD(certificate, visits),
+    STRUCT(world_body), FIELD(world_body, body), FIELD(world_body, pose),
+    FIELD(world_body, scale), FIELD(world_body, pivot), FIELD(world_body, groups),
+    FIELD(world_body, passes), FIELD(world_body, fixed), FIELD(world_body, sensor),
+    STRUCT(world_contact), FIELD(world_contact, body), FIELD(world_contact, contact),
+    FIELD(world_contact, impulse),
+    STRUCT(world_question), FIELD(world_question, question), FIELD(world_question, self),
+    FIELD(world_question, groups), FIELD(world_question, passes),
+    STRUCT(world_answer), FIELD(world_answer, verdict), FIELD(world_answer, why),
+    FIELD(world_answer, body), FIELD(world_answer, time), FIELD(world_answer, safe_time),
+    FIELD(world_answer, safe), FIELD(world_answer, depth), FIELD(world_answer, push_out),
+    FIELD(world_answer, contact_count), FIELD(world_answer, contacts),
+    FIELD(world_answer, questions), FIELD(world_answer, work),
+    STRUCT(slide_options), FIELD(slide_options, clearance), FIELD(slide_options, margin),
+    FIELD(slide_options, mass), FIELD(slide_options, inertia), FIELD(slide_options, friction),
+    FIELD(slide_options, restitution), FIELD(slide_options, up), FIELD(slide_options, step),
+    FIELD(slide_options, slope), FIELD(slide_options, rounds), FIELD(slide_options, work),
+    STRUCT(velocity), FIELD(velocity, linear), FIELD(velocity, angular),
+    STRUCT(slide_answer), FIELD(slide_answer, pose), FIELD(slide_answer, spent),
+    FIELD(slide_answer, rests), FIELD(slide_answer, ground), FIELD(slide_answer, ground_normal),
+    FIELD(slide_answer, caught), FIELD(slide_answer, contact_count),
+    FIELD(slide_answer, contacts), FIELD(slide_answer, questions), FIELD(slide_answer, work),
+    FIELD(slide_answer, told), FIELD(slide_answer, given), FIELD(slide_answer, seconds),
+    FIELD(slide_answer, clock),
     CONSTANT(JOINT_REVOLUTE), CONSTANT(JOINT_CONTINUOUS), CONSTANT(JOINT_PRISMATIC),
     CONSTANT(ROUTE_FOUND), CONSTANT(ROUTE_LIMIT), CONSTANT(ROUTE_STOPPED), CONSTANT(ROUTE_START),
     CONSTANT(ROUTE_GOAL),
@@ -235,6 +275,7 @@ static const neuralsvcd_layout layouts[] = {
     CONSTANT(PLAN_CONVERGED), CONSTANT(PLAN_LIMIT), CONSTANT(PLAN_CANCELLED), CONSTANT(PLAN_START),
     CONSTANT(PLAN_GOAL),
     CONSTANT(NO_TRIANGLE), CONSTANT(MAX_CONTACTS), CONSTANT(MAX_VIA_POINTS), CONSTANT(NONE),
+    CONSTANT(WORLD_CONTACTS),
 };
 // clang-format on
 

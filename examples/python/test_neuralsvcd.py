@@ -1275,6 +1275,243 @@ class Robots(unittest.TestCase):
         self.assertEqual((raised.exception.code, raised.exception.line), (Code.SYNTAX, 2))
 
 
+class Worlds(unittest.TestCase):
+    """A floor, whose top is at 0, and cubes of 0.2 m."""
+
+    def setUp(self) -> None:
+        self.world = nsvcd.World(8)
+        self.floor = self.world.add(BOX, at(0, 0, -1)[0], fixed=True)
+        self.cube = self.world.add(BOX, at(0, 0, 0.5)[0], scale=0.1)
+
+    def fall(self, id: int, options: nsvcd.SlideOptions, frames: int = 120, **named) -> nsvcd.Slide:
+        velocity = np.zeros(6)
+        for _ in range(frames):
+            velocity[2] -= 9.81 / 60
+            slide = self.world.slide(id, velocity, 1 / 60, options, **named)
+            velocity = slide.velocity
+        return slide
+
+    def test_bodies_at_their_places(self) -> None:
+        world = self.world
+        got = world.get(self.cube)
+        self.assertIs(got.body, BOX)
+        self.assertEqual((got.pose, got.groups, got.passes, got.fixed, got.sensor), (tuple(at(0, 0, 0.5)[0]), 1, 0, False, False))
+        self.assertAlmostEqual(got.scale, 0.1)
+        self.assertEqual((len(world), world.ids, self.floor in world, 3 in world), (2, (1, 2), True, False))
+        world.move(self.cube, [[1, 0, 0, 1], [0, 1, 0, 2], [0, 0, 1, 3], [0, 0, 0, 1]])
+        np.testing.assert_array_equal(world.poses(), [at(0, 0, -1)[0], at(1, 2, 3)[0]])
+        np.testing.assert_array_equal(world.poses([np.int64(self.cube)]), at(1, 2, 3))
+        lamp = world.add(MUG, at(0.1, 0, 4)[0], pivot=[0, 0, 0.05], groups=2, passes=4, sensor=True)
+        got = world.get(lamp)
+        self.assertEqual((got.groups, got.passes, got.sensor), (2, 4, True))
+        np.testing.assert_allclose(got.pivot, [0, 0, 0.05])
+        world.remove(self.cube)
+        self.assertEqual(world.ids, (self.floor, lamp))
+        self.assertEqual(world.add(RACK), self.cube)
+
+    def test_sweeps(self) -> None:
+        first = Options(ask="first", to=1e-4)
+        down = at(0, 0, 0.5) + at(0, 0, -0.5)
+        for mover, named in ((self.cube, {}), (BOX, {"scale": 0.1, "ignore": self.cube})):
+            answer = self.world.sweep(mover, down, options=first, **named)
+            self.assertEqual((answer.verdict, answer.why, answer.body), (Verdict.HIT, Why.NOTHING, self.floor))
+            self.assertTrue(answer)
+            alone = nsvcd.sweep(BOX, BOX, down, at(0, 0, -1), scale_a=0.1, options=first)
+            self.assertAlmostEqual(answer.time.high, alone.time.high, places=3)
+            self.assertAlmostEqual(answer.safe[2], 0.1, delta=2e-4)
+            self.assertEqual([contact.body for contact in answer.contacts], [self.floor])
+            self.assertAlmostEqual(answer.contacts[0].contact.normal[2], 1, places=5)
+        self.assertFalse(self.world.sweep(self.cube))
+        self.assertIsNone(self.world.sweep(self.cube).body)
+        self.assertEqual(self.world.sweep(BOX, at(0, 0, 0.5)[0], scale=0.1).body, self.cube)
+        # later, on clocks of its own
+        late = self.world.sweep(self.cube, [down[0], down[0], down[1]], times=[0, 0.5, 1], options=first)
+        self.assertAlmostEqual(late.time.high, 0.5 + 0.5 * alone.time.high, places=3)
+        pushed = self.world.sweep(self.cube, at(0, 0, 0.095), options=Options(ask="first", slop=0.01))
+        self.assertGreaterEqual(pushed.push_out[2], 0.005)
+        manifold = self.world.sweep(self.cube, down, options=Options(ask="first", to=1e-4, manifold=True))
+        self.assertEqual(len(manifold.contacts), 4)
+
+    def test_who_is_met(self) -> None:
+        world = self.world
+        gate = world.add(BOX, at(0, 0, 0.2)[0], scale=0.05, sensor=True)
+        ghost = world.add(BOX, at(0, 0, 0.2)[0], scale=0.05, passes=1)
+        down = at(0, 0, 0.5) + at(0, 0, 0)
+        self.assertEqual(world.list(self.cube, down), (self.floor, gate))
+        self.assertEqual(world.list(BOX, down, scale=0.1), (self.floor, self.cube, gate))
+        self.assertEqual(world.list(BOX, down, scale=0.1, groups=8), (self.floor, self.cube, gate, ghost))
+        self.assertEqual(world.list(BOX, down, scale=0.1, passes=1), ())
+        self.assertEqual(world.pairs().tolist(), [])
+        within = {tuple(pair) for pair in world.pairs(0.5).tolist()}
+        self.assertEqual(within, {(self.floor, self.cube), (self.floor, gate), (self.cube, gate)})
+        self.assertEqual(world.pairs(0.5).dtype, np.uint32)
+        crowd = nsvcd.World(20)
+        for _ in range(20):  # more pairs than there is room for at first
+            crowd.add(BOX)
+        self.assertEqual(len(crowd.pairs()), 190)
+        self.assertEqual(nsvcd.World(1).pairs().shape, (0, 2))
+
+    def test_slides(self) -> None:
+        options = nsvcd.SlideOptions(mass=2, inertia=(0.01, 0.01, 0.01), friction=0.5, clearance=0.001, margin=0.001)
+        slide = self.fall(self.cube, options)
+        self.assertTrue(slide.rests)
+        self.assertEqual(slide.questions, 0)  # what the slide before told was handed back
+        np.testing.assert_array_equal(slide.velocity, np.zeros(6))
+        self.assertEqual(slide.pose, self.world.get(self.cube).pose)
+        self.assertTrue(0.101 < slide.pose[2] < 0.1021, slide.pose)
+        self.assertEqual({contact.body for contact in slide.contacts}, {self.floor})
+        self.assertGreater(sum(contact.impulse for contact in slide.contacts), 0)
+        distance = nsvcd.sweep(BOX, BOX, [slide.pose], at(0, 0, -1), scale_a=0.1, options=Options(ask="distance")).distance
+        self.assertGreater(distance.high, 0.001)
+        # it is moved, and falls again
+        self.world.move(self.cube, at(0, 0, 0.3)[0])
+        again = self.world.slide(self.cube, [0, 0, -1], 0.1, options)
+        self.assertFalse(again.rests)
+        self.assertAlmostEqual(again.pose[2], 0.2, places=5)
+        np.testing.assert_allclose(again.velocity, [0, 0, -1, 0, 0, 0], atol=1e-6)
+        given = np.array([0, 0, -1, 0, 0, 1.5])
+        turned = self.world.slide(self.cube, given, 0.01, options)
+        self.assertAlmostEqual(turned.pose[5], np.sin(0.0075), places=5)
+        np.testing.assert_array_equal(given, [0, 0, -1, 0, 0, 1.5])
+
+    def test_characters_ride(self) -> None:
+        walker = nsvcd.SlideOptions(up=(0, 0, 1), step=0.3)
+        self.assertEqual(self.fall(self.cube, walker, 60).ground, self.floor)
+        lift = self.world.add(BOX, at(0, 0, -0.05)[0], scale=0.04, fixed=True)
+        self.world.move(self.cube, at(0, 0, 0.2)[0])
+        self.fall(self.cube, walker, 60)
+        before = self.world.get(self.cube).pose[2]
+        self.world.drive(lift, at(0, 0, 0.15)[0])
+        slide = self.world.slide(self.cube, [0, 0, -0.1], 0.2, walker)
+        self.world.arrive()
+        self.assertIsNone(slide.caught)
+        self.assertGreater(slide.pose[2], max(before, 0.29))
+        self.assertFalse(self.world.sweep(self.cube))
+        np.testing.assert_array_equal(self.world.poses([lift])[0, 2], np.float32(0.15))
+
+    def test_caught(self) -> None:
+        self.fall(self.cube, nsvcd.SlideOptions(mass=1))
+        press = self.world.add(BOX, at(0, 0, 0.5)[0], scale=0.1, fixed=True)
+        self.world.drive(press, at(0, 0, 0.15)[0])
+        self.assertEqual(self.world.slide(self.cube, np.zeros(3), 1 / 60, nsvcd.SlideOptions(mass=1)).caught, press)
+
+    def test_refused(self) -> None:
+        world, turned = self.world, [0, 0, 0, 0, 0, 0, 1.1]
+        down = at(0, 0, 0.5) + at(0, 0, 0)
+        network = Body(CUBE, FACES, no_triangles=True)
+        rest = np.zeros(6)
+        for code, where, call in (
+                (Code.COUNT, "most", lambda: nsvcd.World(0)),
+                (Code.QUATERNION, "pose", lambda: world.add(BOX, turned)),
+                (Code.POSE, "pose", lambda: world.add(BOX, [np.nan, 0, 0, 0, 0, 0, 1])),
+                (Code.SCALE, "scale", lambda: world.add(BOX, scale=1e9)),
+                (Code.PIVOT, "pivot", lambda: world.add(BOX, pivot=[np.inf, 0, 0])),
+                (Code.TRIANGLES, "body", lambda: world.add(network)),
+                (Code.INDEX, "id", lambda: world.move(7, REST[0])),
+                (Code.QUATERNION, "pose", lambda: world.move(1, turned)),
+                (Code.INDEX, "id", lambda: world.remove(0)),
+                (Code.INDEX, "id", lambda: world.get(9)),
+                (Code.INDEX, "id", lambda: world.poses([1, 9])),
+                (Code.QUATERNION, "to", lambda: world.drive(1, turned)),
+                (Code.INDEX, "mover", lambda: world.sweep(9)),
+                (Code.INDEX, "mover", lambda: world.sweep(0)),
+                (Code.QUATERNION, "poses", lambda: world.sweep(2, turned)),
+                (Code.TIMES, "times", lambda: world.sweep(2, down, times=[1, 0])),
+                (Code.METHOD, "", lambda: world.sweep(2, options=BY_NETWORK)),
+                (Code.ASK, "", lambda: world.sweep(2, options=Options(ask="distance"))),
+                (Code.ASK, "", lambda: world.list(2, options=Options(ask="first"))),
+                (Code.CLEARANCE, "", lambda: world.sweep(2, options=Options(clearance=-1))),
+                (Code.DISTANCE, "distance", lambda: world.pairs(-1)),
+                (Code.INDEX, "id", lambda: world.slide(9, rest, 1)),
+                (Code.SPEED, "velocity", lambda: world.slide(2, [np.nan, 0, 0], 1)),
+                (Code.TIMES, "seconds", lambda: world.slide(2, rest, 0)),
+                (Code.AXIS, "up", lambda: world.slide(2, rest, 1, nsvcd.SlideOptions(up=(0, 0, 2)))),
+                (Code.DISTANCE, "step", lambda: world.slide(2, rest, 1, nsvcd.SlideOptions(step=-1)))):
+            error = raised(call)
+            self.assertEqual((error.code, error.where), (code, where))
+        for kind, call in (
+                (TypeError, lambda: world.add("mug.obj")), (TypeError, lambda: world.sweep("mug")),
+                (TypeError, lambda: world.sweep(2, scale=2)), (ValueError, lambda: world.add(BOX, scale=0)),
+                (ValueError, lambda: world.add(BOX, [0, 0, 0])), (ValueError, lambda: world.slide(2, [0, 0], 1)),
+                (ValueError, lambda: world.move(-1, REST[0])), (TypeError, lambda: world.move("a", REST[0])),
+                (ValueError, lambda: nsvcd.SlideOptions(up=(0, 1))), (ValueError, lambda: world.add(BOX, groups=1 << 32)),
+                (TypeError, lambda: copy.copy(world)), (TypeError, lambda: copy.deepcopy(world)),
+                (TypeError, lambda: pickle.dumps(world))):
+            self.assertRaises(kind, call)
+        for _ in range(6):
+            world.add(BOX)
+        self.assertEqual(raised(world.add, BOX).code, Code.COUNT)
+        # nothing has changed by all that
+        np.testing.assert_array_equal(world.poses([1, 2]), at(0, 0, -1) + at(0, 0, 0.5))
+
+    def test_options_are_values(self) -> None:
+        options = nsvcd.SlideOptions(mass=1, inertia=np.array([1, 2, 3]), up=[0, 0, 1], rounds=3)
+        self.assertEqual(options, nsvcd.SlideOptions(mass=1, inertia=(1, 2, 3), up=(0, 0, 1), rounds=3))
+        self.assertEqual(pickle.loads(pickle.dumps(options)), options)
+        self.assertEqual(len({options, copy.deepcopy(options)}), 1)
+        self.assertEqual(list(options._c.inertia), [1, 2, 3])
+
+    def test_bodies_live_as_long_as_they_are_used(self) -> None:
+        body = copy.copy(BOX)
+        gone = weakref.ref(body)
+        id = self.world.add(body, at(0, 0, 2)[0], scale=0.1)
+        del body
+        gc.collect()
+        self.assertEqual(self.world.sweep(BOX, at(0, 0, 2), scale=0.1).body, id)
+        self.world.remove(id)
+        gc.collect()
+        self.assertIsNone(gone())
+        body = copy.copy(BOX)
+        gone = weakref.ref(body)
+        self.world.add(body)
+        del body, self.world
+        gc.collect()
+        self.assertIsNone(gone())
+
+    def test_nothing_leaks(self) -> None:
+        if not Path("/proc/self/statm").exists():
+            self.skipTest("no /proc: not tested")
+
+        def work() -> None:
+            for _ in range(300):
+                self.setUp()
+                self.fall(self.cube, nsvcd.SlideOptions(mass=1), 2)
+                raised(self.world.move, 7, REST[0])
+                self.world.list(self.cube)
+                self.world.add(copy.copy(BOX))
+
+        def resident() -> int:
+            gc.collect()
+            return int(Path("/proc/self/statm").read_text().split()[1]) * os.sysconf("SC_PAGE_SIZE")
+        work()
+        before = resident()
+        work()
+        self.assertLess(resident() - before, 100 * len(bytes(BOX)))
+
+    def test_threads_ask_while_one_changes(self) -> None:
+        """In the library, a question during a change is refused as Code.WORLD. Here it waits."""
+        world, path = self.world, at(0, 0, 0.5) + at(0, 0, -0.5)
+        over = threading.Event()
+
+        def ask() -> int:
+            count = 0
+            while not over.is_set() or not count:
+                self.assertEqual(world.sweep(self.cube, path, options=Options(ask="first")).body, self.floor)
+                self.assertEqual(world.list(self.cube, path)[0], self.floor)
+                count += 1 + len(world.pairs(9))
+            return count
+        with ThreadPoolExecutor(4) as pool:
+            asked = [pool.submit(ask) for _ in range(4)]
+            try:
+                for k in range(200):
+                    id = world.add(copy.copy(BOX), at(5, 0, k)[0], scale=0.1)
+                    world.slide(id, [0, 0, -1], 0.1)
+                    world.remove(id)
+            finally:
+                over.set()
+            self.assertTrue(all(future.result() for future in asked))
+
+
 class Certificates(unittest.TestCase):
     """Made by neuralsvcd, checked by nsvcd_verify."""
 
@@ -1488,6 +1725,8 @@ class Layouts(unittest.TestCase):
                  "NSVCD_UNDECIDED"),
                 ('    TOO_NEAR = "too near"\n', "", "NSVCD_WHY_TOO_NEAR"),
                 ("_MAX_CONTACTS = 4", "_MAX_CONTACTS = 5", "NSVCD_MAX_CONTACTS"),
+                ("spent=c_float, rests=c_int", "rests=c_int, spent=c_float", "nsvcd_slide_answer.rests"),
+                ("_WORLD_CONTACTS = 32", "_WORLD_CONTACTS = 33", "NSVCD_WORLD_CONTACTS"),
                 ("inside=c_int, time=c_double", "time=c_double, inside=c_int", "nsvcd_certificate.inside"),
                 ("    CANCELLED = 5\n", "", "NSVCD_ERROR_CANCELLED"),
                 ("_MAX_VIA_POINTS = 32", "_MAX_VIA_POINTS = 33", "NSVCD_MAX_VIA_POINTS")):

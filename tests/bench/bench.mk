@@ -43,6 +43,12 @@ bench-one-path:  ## what NSVCD_ONE_PATH costs
 	CC="$(CC)" tests/one_path.sh time
 bench-casts: build/bench_casts  ## capsules, spheres and rays in a level; clouds
 	build/bench_casts
+build/world_peers: tests/bench/world_peers.cc tests/bench/bench_world.c $(HELPERS) $(PEERS) $(SCENERY) $(LIBRARY) | build
+	$(CXX) $(CFLAGS) -std=c++11 $(WARNINGS) -Wno-unused-function $(BULLET_CFLAGS) -o $@ $< $(BULLET_LIBS) -lm
+# WORLD=casts, rest or frames: one of them. BULLET=folder: as the Makefile says.
+bench-world: build/bench_world $(if $(HAVE_BULLET),build/world_peers)  ## casts, rest and frames of a world; Bullet's beside it
+	build/bench_world $(WORLD)
+	$(if $(HAVE_BULLET),build/world_peers $(WORLD),@echo "bench-world: no libbullet-dev: Bullet is not measured")
 bench-asks: build/bench_asks build/game $(ASKED)  ## what first contacts, clearances and skins cost
 	@mkdir -p build/motions
 	build/game --frames 300 --problems build/motions

@@ -17,6 +17,7 @@ ValueError and TypeError.
 """
 from __future__ import annotations
 
+import contextlib
 import ctypes
 import dataclasses
 import enum
@@ -27,7 +28,7 @@ import os
 import struct
 import threading
 import warnings
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from ctypes import byref, c_char, c_char_p, c_double, c_float, c_int, c_size_t, c_uint32, c_uint64, c_void_p
 from dataclasses import dataclass
 from pathlib import Path
@@ -39,8 +40,8 @@ from numpy.typing import ArrayLike, NDArray
 __all__ = [
     "Answer", "Ask", "Body", "By", "Certificate", "Checked", "Code", "Contact", "Error", "Facts", "Gradient", "Joint",
     "JointKind", "LEAVE_OUT", "Mesh", "Method", "Model", "Motion", "NO_TRIANGLE", "Opinion", "Options", "Part", "Plan",
-    "PlanOptions", "PlanStatus", "Precision", "Progress", "Range", "Reached", "Robot", "Route", "RouteStatus", "SafePlace",
-    "Stage", "Tree", "Verdict", "Why", "certify", "contacts", "cut_mesh", "load_mesh", "load_obj", "load_stl",
+    "PlanOptions", "PlanStatus", "Precision", "Progress", "Range", "Reached", "Resident", "Robot", "Route", "RouteStatus",
+    "SafePlace", "Slide", "SlideOptions", "Stage", "Tree", "Verdict", "Why", "World", "WorldAnswer", "WorldContact", "certify", "contacts", "cut_mesh", "load_mesh", "load_obj", "load_stl",
     "parse_mesh", "parse_obj", "parse_stl", "plan", "poses_from_matrices", "spline", "sweep", "sweep_batch", "sweep_gradient",
 ]
 
@@ -199,6 +200,7 @@ class RouteStatus(enum.IntEnum):
 
 NO_TRIANGLE = 0xffffffff  # in the arrays of sweep_batch
 _MAX_CONTACTS = 4
+_WORLD_CONTACTS = 32
 _MAX_JOINTS = 128
 _MAX_VIA_POINTS = 32
 LEAVE_OUT = c_size_t(-1).value  # Stage.iterations
@@ -314,7 +316,22 @@ _RouteAnswer = _struct(
 _CertifyOptions = _struct("nsvcd_certify_options", answer=c_void_p, visits=c_size_t)
 _Certificate = _struct(
     "nsvcd_certificate", verdict=c_int, why=c_int, inside=c_int, time=c_double, size=c_size_t, visits=c_size_t)
-_STRUCTS = (_CertifyOptions, _Certificate, _Joint, _Part, _Scene, _Allowance, _Cone, _JointMotion, _PartialMotion, _CheckOptions, _CheckAnswer, _Proximity, _ProximityOptions, _NearestFreeOptions,
+_WorldBody = _struct("nsvcd_world_body", body=c_void_p, pose=_Pose, scale=c_float, pivot=c_float * 3, groups=c_uint32,
+                     passes=c_uint32, fixed=c_int, sensor=c_int)
+_WorldContact = _struct("nsvcd_world_contact", body=c_size_t, contact=_Contact, impulse=c_float)
+_WorldQuestion = _struct("nsvcd_world_question", question=_Question, self=c_size_t, groups=c_uint32, passes=c_uint32)
+_WorldAnswer = _struct(
+    "nsvcd_world_answer", verdict=c_int, why=c_int, body=c_size_t, time=_Range, safe_time=c_float, safe=_Pose, depth=c_float,
+    push_out=c_float * 3, contact_count=c_size_t, contacts=_WorldContact * _WORLD_CONTACTS, questions=c_size_t, work=c_size_t)
+_SlideOptions = _struct(
+    "nsvcd_slide_options", clearance=c_float, margin=c_float, mass=c_float, inertia=c_float * 3, friction=c_float,
+    restitution=c_float, up=c_float * 3, step=c_float, slope=c_float, rounds=c_size_t, work=c_size_t)
+_Velocity = _struct("nsvcd_velocity", linear=c_float * 3, angular=c_float * 3)
+_SlideAnswer = _struct(
+    "nsvcd_slide_answer", pose=_Pose, spent=c_float, rests=c_int, ground=c_size_t, ground_normal=c_float * 3, caught=c_size_t,
+    contact_count=c_size_t, contacts=_WorldContact * _WORLD_CONTACTS, questions=c_size_t, work=c_size_t, told=_SlideOptions,
+    given=_Velocity, seconds=c_float, clock=c_uint64)
+_STRUCTS = (_WorldBody, _WorldContact, _WorldQuestion, _WorldAnswer, _SlideOptions, _Velocity, _SlideAnswer, _CertifyOptions, _Certificate, _Joint, _Part, _Scene, _Allowance, _Cone, _JointMotion, _PartialMotion, _CheckOptions, _CheckAnswer, _Proximity, _ProximityOptions, _NearestFreeOptions,
             _PairCounts, _ReachProblem, _ReachOptions, _ReachAnswer, _RouteProblem, _RouteOptions, _RouteAnswer, _Mesh, _EncodeOptions, _BodyFacts, _Pose, _NetworkOptions, _Mover, _Question, _Range, _Contact,
             _SafePlace, _Opinion, _Answer, _BodyPair, _PlanProgress, _PlanProblem, _PlanStage, _PlanOptions, _PlanAnswer)
 _Layout = _struct("neuralsvcd_layout", name=c_char_p, place=c_size_t, size=c_size_t)
@@ -356,6 +373,18 @@ _PROTOTYPES = {
     "nsvcd_tree_build": (c_int, c_void_p, c_void_p, c_size_t, c_void_p),
     "nsvcd_certify_workspace_size": (c_size_t, c_void_p, c_void_p, c_void_p),
     "nsvcd_certify": (c_int, c_void_p, c_void_p, c_void_p, c_void_p, c_void_p, c_size_t, c_void_p, c_size_t, c_void_p),
+    "nsvcd_world_size": (c_size_t, c_size_t),
+    "nsvcd_world_begin": (c_int, c_void_p, c_size_t, c_size_t, c_void_p),
+    "nsvcd_world_add": (c_int, c_void_p, c_void_p, c_void_p),
+    "nsvcd_world_move": (c_int, c_void_p, c_size_t, c_void_p),
+    "nsvcd_world_remove": (c_int, c_void_p, c_size_t),
+    "nsvcd_world_get": (c_int, c_void_p, c_size_t, c_void_p),
+    "nsvcd_world_drive": (c_int, c_void_p, c_size_t, c_void_p),
+    "nsvcd_world_arrive": (c_int, c_void_p),
+    "nsvcd_world_sweep": (c_int, c_void_p, c_void_p, c_void_p, c_size_t, c_void_p),
+    "nsvcd_world_list": (c_int, c_void_p, c_void_p, c_void_p, c_size_t, c_void_p, c_size_t, c_void_p),
+    "nsvcd_world_pairs": (c_int, c_void_p, c_float, c_void_p, c_size_t, c_void_p),
+    "nsvcd_world_slide": (c_int, c_void_p, c_size_t, c_void_p, c_float, c_void_p, c_size_t, c_void_p, c_void_p),
     "neuralsvcd_mesh_parse": (c_char_p, c_char_p, c_char_p, c_size_t, c_void_p, c_void_p, c_void_p, c_void_p),
     "neuralsvcd_layouts": (c_void_p, c_void_p),
 }
@@ -364,6 +393,7 @@ _PROTOTYPES = {
 def _expected_layouts() -> dict[str, tuple[int, int]]:
     """What neuralsvcd_layouts of _neuralsvcd.c must say, if all above is as in neuralsvcd.h."""
     expected = {"NSVCD_NO_TRIANGLE": (NO_TRIANGLE, 0), "NSVCD_MAX_CONTACTS": (_MAX_CONTACTS, 0),
+                "NSVCD_WORLD_CONTACTS": (_WORLD_CONTACTS, 0),
                 "NSVCD_MAX_VIA_POINTS": (_MAX_VIA_POINTS, 0), "NSVCD_NONE": (LEAVE_OUT, 0),
                 "NSVCD_MAX_JOINTS": (_MAX_JOINTS, 0)}
     for values, prefix in _PREFIXES.items():
@@ -1979,3 +2009,374 @@ class Robot:
         return Route(RouteStatus(answer.status), answer.goal if is_found else None, points, times, answer.stops,
                      answer.duration, answer.unhindered, _checked(answer.check), answer.nodes, answer.checks,
                      answer.proven, answer.looks)
+
+
+# -------------------------------------------------------------------------------------------------------------- worlds
+
+
+@dataclass(frozen=True)
+class SlideOptions(_Options):
+    """How a body of a World slides: nsvcd_slide_options. What is 0 is the default.
+
+    clearance    metres: what it never comes nearer to anything than; a two-hundredth of its radius
+    margin       metres: how much farther than that it comes to rest, or a part of that; the same
+    mass, inertia  kilograms, and (3) kg m^2 about its axes through its pivot. Without an inertia it does not turn by what it
+                 meets; without a mass it is a character, whose impulses are speeds
+    friction     of what it rubs against
+    restitution  of what it hits faster than half a metre a second, up to 1
+    up           (3) a character: the direction up, unit. It rides on what it stands on
+    step         metres: as high a step it climbs
+    slope        the least cosine between up and the normal of a ground that it stands on; 0.7
+    rounds       how often in a frame it goes on after a contact; 4
+    work         units of each question; 10000
+    """
+    clearance: float = 0
+    margin: float = 0
+    mass: float = 0
+    inertia: ArrayLike = (0, 0, 0)
+    friction: float = 0
+    restitution: float = 0
+    up: ArrayLike = (0, 0, 0)
+    step: float = 0
+    slope: float = 0
+    rounds: int = 0
+    work: int = 0
+    _struct = _SlideOptions
+
+    def __post_init__(self) -> None:
+        vectors = {name: _floats(getattr(self, name), (3,), name).tolist() for name in ("inertia", "up")}
+        values = {**vars(self), **{name: None for name in vectors}}
+        object.__setattr__(self, "_c", _filled(self._struct, **values))
+        for name, vector in vectors.items():
+            object.__setattr__(self, name, tuple(vector))
+            getattr(self._c, name)[:] = vector
+
+
+_USUAL_SLIDE = SlideOptions()
+
+
+class Resident(NamedTuple):
+    """A body of a World: nsvcd_world_body."""
+    body: Body
+    pose: Pose
+    scale: float
+    pivot: Vector
+    groups: int
+    passes: int
+    fixed: bool
+    sensor: bool
+
+
+class WorldContact(NamedTuple):
+    """nsvcd_world_contact: a contact of a mover, which is `a` of it, with a body of the world, by its id.
+
+    impulse  newton seconds, along the normal: what a slide took from the mover's momentum; without a mass, metres a second
+    """
+    body: int
+    contact: Contact
+    impulse: float
+
+
+class WorldAnswer(NamedTuple):
+    """nsvcd_world_answer. As a condition it is answer.verdict != "free", as of Answer.
+
+    verdict    hit: it hits some body; undecided: it hits none, and of some that is not known; free: of all
+    why        ... it is not
+    body       that is hit first, or else is undecided first; None: it is free
+    time       free of all bodies before low, in contact with one at high
+    safe_time, safe  "first": where the mover may go: this pose, and the way there, are proven to be free of all bodies
+    depth, push_out  with a slop: how the mover was pushed out, of all that it touched at once
+    contacts   "first": with all bodies that touch at the safe pose, one each, or with options.manifold all, up to 32
+    questions  about two bodies, and
+    work       units that their proofs took
+    """
+    verdict: Verdict
+    why: Why
+    body: Optional[int]
+    time: Range
+    safe_time: float
+    safe: Pose
+    depth: float
+    push_out: Vector
+    contacts: list[WorldContact]
+    questions: int
+    work: int
+
+    def __bool__(self) -> bool:
+        return self.verdict is not Verdict.FREE
+
+
+class Slide(NamedTuple):
+    """What became of a body in a frame: nsvcd_slide_answer.
+
+    velocity  (6) float32, at the end: metres a second, then radians a second; the caller adds gravity to it and hands it back
+    spent     of the frame, that it could make use of
+    rests     it did not move at all, and its speed is 0
+    ground    the body that it stands on, or None, and the ground's normal
+    caught    the driven body that it could not get out of the way of, or None
+    contacts  where it touches at the end, or within the margin
+    """
+    pose: Pose
+    velocity: Floats
+    spent: float
+    rests: bool
+    ground: Optional[int]
+    ground_normal: Vector
+    caught: Optional[int]
+    contacts: list[WorldContact]
+    questions: int
+    work: int
+
+
+_WORLD_FIELDS, _SLIDE_FIELDS, _WORLD_CONTACT = _packed(_WorldAnswer), _packed(_SlideAnswer), _packed(_WorldContact)
+
+
+def _world_contacts(c: Any, count: int) -> list[WorldContact]:
+    first = type(c).contacts.offset
+    rows: Any = [_WORLD_CONTACT.unpack_from(c, first + k * _WORLD_CONTACT.size) for k in range(count)]
+    return [WorldContact(v[0], _contact_of(v[1:14]), v[14]) for v in rows]
+
+
+class _Door:
+    """Any number of threads ask, or one changes: the others wait."""
+
+    def __init__(self) -> None:
+        self._free = threading.Condition()
+        self._asking = 0
+
+    @contextlib.contextmanager
+    def asks(self) -> Iterator[None]:
+        with self._free:
+            self._asking += 1
+        try:
+            yield
+        finally:
+            with self._free:
+                self._asking -= 1
+                self._free.notify_all()
+
+    @contextlib.contextmanager
+    def changes(self) -> Iterator[None]:
+        with self._free:
+            self._free.wait_for(lambda: not self._asking)
+            yield
+
+
+def _check_of(code: int, names: dict[Code, str]) -> None:
+    """As _check. Which argument is at fault is told by the code, for each call."""
+    if code:
+        raise Error(code, names.get(Code(code), ""))
+
+
+_OF_BODY = {Code.COUNT: "most", Code.POSE: "pose", Code.QUATERNION: "pose", Code.SCALE: "scale", Code.PIVOT: "pivot",
+            Code.TRIANGLES: "body"}
+_OF_ID = {Code.INDEX: "id", Code.POSE: "pose", Code.QUATERNION: "pose"}
+_OF_MOVER = {Code.INDEX: "mover", Code.POSES: "poses", Code.POSE: "poses", Code.QUATERNION: "poses", Code.TIMES: "times",
+             Code.SCALE: "scale", Code.PIVOT: "pivot", Code.TRIANGLES: "mover"}
+_OF_SLIDE = {Code.INDEX: "id", Code.SPEED: "velocity", Code.TIMES: "seconds", Code.CLEARANCE: "clearance, margin",
+             Code.AXIS: "up", Code.DISTANCE: "step", Code.VALUE: "mass, inertia, friction, restitution, slope"}
+
+
+class World:
+    """At most so many bodies at their places, and questions about one body and all that it comes near: nsvcd_world.
+
+        world = World(100)
+        floor, crate = world.add(level, fixed=True), world.add(box, [0, 0, 1, 0, 0, 0, 1])
+        velocity = np.zeros(6)
+        for frame in range(60):
+            velocity[2] -= 9.81 / 60
+            velocity = world.slide(crate, velocity, 1 / 60, SlideOptions(mass=1, friction=0.5)).velocity
+
+    If no two bodies overlap, none do after a slide. Bodies have ids, from 1 on, and live as long as the world has them. Any
+    number of threads may ask; who changes the world, slides too, waits until they have their answers.
+    """
+
+    def __init__(self, most: int) -> None:
+        size = _library.nsvcd_world_size(_number(c_size_t, most, "most"))
+        if not size:
+            raise Error(Code.COUNT, "most")
+        self._memory = _memory(size)
+        self._world = c_void_p()
+        self._bodies: dict[int, Body] = {}
+        self._slid: dict[int, Any] = {}  # what the next slide of a body takes back
+        self._door = _Door()
+        _check(_library.nsvcd_world_begin(_address(self._memory), size, most, byref(self._world)))
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        raise TypeError("a World cannot be copied or pickled")
+
+    def __len__(self) -> int:
+        return len(self._bodies)
+
+    def __contains__(self, id: object) -> bool:
+        return id in self._bodies
+
+    @property
+    def ids(self) -> tuple[int, ...]:
+        """Of its bodies, in ascending order."""
+        with self._door.asks():
+            return tuple(sorted(self._bodies))
+
+    def add(self, body: Body, pose: ArrayLike = _IDENTITY, *, scale: float = 1, pivot: ArrayLike = (0, 0, 0), groups: int = 0,
+            passes: int = 0, fixed: bool = False, sensor: bool = False) -> int:
+        """Adds a body and returns its id; ids of removed bodies are used again. Nothing is asked: it may overlap others.
+
+        pose    (7) or (4, 4): where it is
+        scale   about its origin
+        pivot   (3) of its frame: what it turns about. Of what moves freely, the centre of mass
+        groups, passes  bits: the groups that it belongs to, by default the first, and those that it passes through
+        fixed   it never moves by itself, like a level: pairs of two such bodies are not listed
+        sensor  it stops nothing; `list` tells what is in it
+        """
+        if not isinstance(body, Body):
+            raise TypeError(f"body: a Body is needed, not {type(body).__name__}")
+        given = _filled(_WorldBody, groups=groups, passes=passes, fixed=bool(fixed), sensor=bool(sensor))
+        given.body, given.pose, given.scale = body._address, _pose_of(pose, "pose"), _scale_of(scale)
+        given.pivot[:] = _floats(pivot, (3,), "pivot").tolist()
+        id = c_size_t()
+        with self._door.changes():
+            _check_of(_library.nsvcd_world_add(self._world, byref(given), byref(id)), _OF_BODY)
+            self._bodies[id.value] = body
+        return id.value
+
+    def move(self, id: int, pose: ArrayLike) -> None:
+        """Moves a body elsewhere. Nothing is asked."""
+        with self._door.changes():
+            _check_of(_library.nsvcd_world_move(self._world, _id_of(id), byref(_pose_of(pose, "pose"))), _OF_ID)
+
+    def remove(self, id: int) -> None:
+        """Takes a body out."""
+        with self._door.changes():
+            _check_of(_library.nsvcd_world_remove(self._world, _id_of(id)), _OF_ID)
+            self._slid.pop(id, None)
+            del self._bodies[id]
+
+    def get(self, id: int) -> Resident:
+        """What a body is, and where."""
+        got = _WorldBody()
+        with self._door.asks():
+            _check_of(_library.nsvcd_world_get(self._world, _id_of(id), byref(got)), _OF_ID)
+            body = self._bodies[id]
+        return Resident(body, (*_vector(got.pose.position), *got.pose.rotation), got.scale, _vector(got.pivot), got.groups, got.passes,
+                        bool(got.fixed), bool(got.sensor))
+
+    def poses(self, ids: Optional[Sequence[int]] = None) -> Floats:
+        """Where bodies are, by default all, in the order of their ids: (n, 7)."""
+        wanted = self.ids if ids is None else [_id_of(id) for id in ids]
+        rows, got = np.empty((len(wanted), 7), np.float32), _WorldBody()
+        with self._door.asks():
+            for row, id in zip(rows, wanted):
+                _check_of(_library.nsvcd_world_get(self._world, id, byref(got)), _OF_ID)
+                row[:] = np.frombuffer(got.pose, np.float32)
+        return rows
+
+    def drive(self, id: int, to: ArrayLike) -> None:
+        """Drives a body in this frame to a pose, by a line and a slerp about its pivot: a lift, a door, a robot's link. It stops for
+        nobody: others that slide get out of its way, or are caught."""
+        with self._door.changes():
+            code = _library.nsvcd_world_drive(self._world, _id_of(id), byref(_pose_of(to, "to")))
+            _check_of(code, {Code.INDEX: "id", Code.POSE: "to", Code.QUATERNION: "to"})
+
+    def arrive(self) -> None:
+        """Ends the frame: all driven bodies are at their ends, and rest."""
+        with self._door.changes():
+            _check(_library.nsvcd_world_arrive(self._world))
+
+    def sweep(self, mover: Union[int, Body], poses: Optional[ArrayLike] = None, *, times: Optional[ArrayLike] = None,
+              scale: float = 1, pivot: ArrayLike = (0, 0, 0), groups: int = 0, passes: int = 0, ignore: int = 0,
+              options: Options = _DEFAULTS) -> WorldAnswer:
+        """Does a mover hit any body? And which first: options=Options(ask="first"). Driven bodies are asked about as they move.
+
+        mover   a body of the world by its id, or any Body, which has a scale, a pivot, groups and passes, as of `add`
+        poses   (k, 7), as of `sweep` of two bodies; None: where it is in the world, or at the origin
+        ignore  the id that a Body stands for: it does not meet that body, whose groups count
+        """
+        question = _world_question(mover, poses, times, scale, pivot, groups, passes, ignore, options)
+        answer = _WorldAnswer()
+        with self._door.asks():
+            _check_of(_library.nsvcd_world_sweep(self._world, byref(question), _workspace.address, _workspace.size,
+                                                 byref(answer)), _OF_MOVER)
+        v: Any = _WORLD_FIELDS.unpack(answer)
+        return WorldAnswer(_VERDICTS[v[0]], _WHYS[v[1]], v[2] or None, Range(v[3], v[4]), v[5], v[6:13], v[13], v[14:17],
+                           _world_contacts(answer, v[17]), v[18], v[19])
+
+    def list(self, mover: Union[int, Body], poses: Optional[ArrayLike] = None, *, times: Optional[ArrayLike] = None,
+             scale: float = 1, pivot: ArrayLike = (0, 0, 0), groups: int = 0, passes: int = 0, ignore: int = 0,
+             options: Options = _DEFAULTS) -> tuple[int, ...]:
+        """The ids of all bodies that a mover meets on its way, sensors too; what is undecided counts. Arguments are those of `sweep`."""
+        question = _world_question(mover, poses, times, scale, pivot, groups, passes, ignore, options)
+        count = c_size_t()
+        with self._door.asks():
+            ids = (c_size_t * len(self._bodies))()
+            _check_of(_library.nsvcd_world_list(self._world, byref(question), _workspace.address, _workspace.size, ids, len(ids),
+                                                byref(count)), _OF_MOVER)
+        return tuple(ids[:count.value])
+
+    def pairs(self, distance: float = 0) -> NDArray[np.uint32]:
+        """Pairs of ids (n, 2) whose boxes, over this frame, come within a distance, metres: who may meet whom."""
+        reach, count = _number(c_float, distance, "distance"), c_size_t()
+        with self._door.asks():
+            rows = np.empty((4 * len(self._bodies), 2), np.uint32)
+            while True:
+                _check_of(_library.nsvcd_world_pairs(self._world, reach, _address(rows), len(rows), byref(count)),
+                          {Code.DISTANCE: "distance"})
+                if count.value <= len(rows):
+                    return rows[:count.value].copy()
+                rows = np.empty((count.value, 2), np.uint32)
+
+    def slide(self, id: int, velocity: ArrayLike, seconds: float, options: SlideOptions = _USUAL_SLIDE) -> Slide:
+        """Moves a body for a frame at its speed: as far as is proven free, then on without the speed that points into what it met.
+        At the end, and on its way there, it is farther than the clearance from every other body.
+
+        velocity  (6) metres a second of its pivot, then radians a second, in the world; or (3), and it does not turn. Gravity and
+                  other forces are the caller's to add before
+        seconds   of the frame
+        """
+        given = _floats(velocity, (3,) if np.shape(velocity) == (3,) else (6,), "velocity")
+        speed = np.zeros(6, np.float32)
+        speed[:len(given)] = given
+        with self._door.changes():
+            answer = self._slid.get(id) or _SlideAnswer()
+            code = _library.nsvcd_world_slide(self._world, _id_of(id), byref(options._c), _number(c_float, seconds, "seconds"),
+                                              _workspace.address, _workspace.size, _address(speed), byref(answer))
+            _check_of(code, _OF_SLIDE)
+            self._slid[id] = answer
+            v: Any = _SLIDE_FIELDS.unpack(answer)
+            contacts = _world_contacts(answer, v[14])
+        return Slide(v[0:7], speed, v[7], bool(v[8]), v[9] or None, v[10:13], v[13] or None, contacts, v[15], v[16])
+
+
+def _scale_of(scale: float) -> Any:
+    factor = _number(c_float, scale, "scale")
+    if not factor.value:
+        raise ValueError(f"scale: {scale}")  # in C that is 1
+    return factor
+
+
+def _id_of(id: Any) -> Any:
+    return _number(c_size_t, id, "id")
+
+
+def _world_question(mover: Union[int, Body], poses: Optional[ArrayLike], times: Optional[ArrayLike], scale: float, pivot: ArrayLike,
+                    groups: int, passes: int, ignore: int, options: Options) -> Any:
+    asked = _filled(_WorldQuestion, groups=groups, passes=passes, self=ignore)
+    given = np.asarray(poses) if poses is not None else None
+    motion = _motion(given[None] if given is not None and given.shape == (7,) else given, times, "mover")
+    asked.question = options._c
+    a = asked.question.a
+    if isinstance(mover, Body):
+        a.body, a.scale = mover._address, _scale_of(scale)
+        a.pivot[:] = _floats(pivot, (3,), "pivot").tolist()
+    elif isinstance(mover, bool) or not isinstance(mover, (int, np.integer)):
+        raise TypeError(f"mover: an id or a Body is needed, not {type(mover).__name__}")
+    elif scale != 1 or np.any(pivot) or groups or passes or ignore:
+        raise TypeError("scale, pivot, groups, passes, ignore: only of a Body; that of an id has its own")
+    elif not mover:
+        raise Error(Code.INDEX, "mover")  # 0 is nobody
+    else:
+        asked.self = _id_of(mover)
+    if motion.poses is not None:
+        a.poses, a.count = _address(motion.poses), len(motion.poses)
+        a.times = None if motion.times is None else _address(motion.times)
+    asked.kept = motion
+    return asked
