@@ -15908,8 +15908,6 @@ static NSVCD__NOINLINE int nsvcd__hulls_are_apart(nsvcd__solver *w, size_t i, si
       return 1;
     }
     if (step + 1 < NSVCD__GUESSES) continue;
-    // Hulls that meet take all steps, and of those so deep here only one in twenty are apart.
-    if (step >= NSVCD__GUESSES + 2 && found.gap < -0.5f * length * length) return 0;
     const nsvcd__f3 toward = nsvcd__f3_sub(found.difference, nearest);
     const float square = nsvcd__f3_dot(toward, toward);
     float fraction = square > 0 ? -nsvcd__f3_dot(nearest, toward) / square : 0;
