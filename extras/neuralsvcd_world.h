@@ -334,6 +334,8 @@ typedef struct nsvcd_step_answer {
 //              library
 //
 // What is proven is proven as of slides: no two bodies overlap, if none did. The rest is physics:
+//   Who stands, by way of other movers, on what is driven up goes first, the highest before all, and
+// as fast: so a stack rises with its lift.
 //   A mover that is driven (nsvcd_world_drive) goes where it is driven, for that frame, as one that
 // nothing stops, and its velocity is left alone.
 //   What two bodies give each other keeps their momentum along the normal, and gains no energy.
@@ -1420,8 +1422,9 @@ typedef struct nsvcd__resident {
   // when it came to where it is, on the world's clock
   uint64_t moved;
   uint32_t next_free;
-  // which of a step's movers it was last
+  // which of a step's movers it was last; and how fast what it stands on by way of others lifts it
   uint32_t mover;
+  float rise;
 } nsvcd__resident;
 
 // One of a step's movers, and how high it is.
@@ -3118,9 +3121,10 @@ static int nsvcd__is_disturbed(const nsvcd__crowd *crowd, const nsvcd_world_move
   return 0;
 }
 
-// Wakes whoever sleeps where something is driven.
-static void nsvcd__wake_near_driven(const nsvcd__crowd *crowd) {
+// Wakes whoever sleeps where something is driven. Returns whether something is.
+static int nsvcd__wake_near_driven(const nsvcd__crowd *crowd) {
   nsvcd_world *world = crowd->world;
+  int is_driven = 0;
   double within = 0;
   for (size_t k = 0; k < crowd->count; k++) {
     const nsvcd_slide_options *how = &crowd->movers[k].how;
@@ -3133,12 +3137,14 @@ static void nsvcd__wake_near_driven(const nsvcd__crowd *crowd) {
   for (uint32_t id = 1; id <= world->count; id++) {
     const nsvcd__resident *r = nsvcd__resident_of(world, id);
     if (!r || !r->is_driven) continue;
+    is_driven = 1;
     const nsvcd__box box = nsvcd__box_around(r->box, within);
     for (uint32_t n = 0; (n = nsvcd__tree_next(&world->tree, n, &box)) != 0;) {
       nsvcd_world_mover *m = nsvcd__mover_with(crowd, n);
       if (m && m->asleep) nsvcd__wake(m);
     }
   }
+  return is_driven;
 }
 
 // What was quiet for long enough falls asleep.
@@ -3152,9 +3158,71 @@ static void nsvcd__grow_calm(const nsvcd__crowd *crowd, nsvcd_world_mover *m) {
   memset(&m->velocity, 0, sizeof m->velocity);
 }
 
+// ---- lifts
+
+// Against gravity, unit; or 0.
+static nsvcd__d3 nsvcd__up_of(const nsvcd__crowd *crowd) {
+  const nsvcd__d3 none = {0, 0, 0};
+  return nsvcd__d3_unit(nsvcd__d3_scale(crowd->falls, -1), none);
+}
+
+// How fast a driven body takes a point along that is there now, metres a second; 0: it is not
+// driven.
+static nsvcd__d3 nsvcd__takes_along(const nsvcd__crowd *crowd, const nsvcd__resident *r,
+                                    nsvcd__d3 point) {
+  if (!r->is_driven) return nsvcd__d3_of(0, 0, 0);
+  const nsvcd__dpose from = nsvcd__dpose_of(&r->given.pose);
+  const nsvcd__dpose to = nsvcd__dpose_of(&r->to);
+  const nsvcd__dtransform now = nsvcd__dtransform_of(&from);
+  const nsvcd__dtransform then = nsvcd__dtransform_of(&to);
+  const nsvcd__d3 own =
+      nsvcd__dmat3_apply_transpose(&now.rotation, nsvcd__d3_sub(point, now.position));
+  const nsvcd__d3 moved = nsvcd__d3_sub(nsvcd__d3_transform(&then, own), point);
+  return nsvcd__d3_over(moved, (double)crowd->seconds);
+}
+
+// The next body beneath a mover, as it was after its last slide, from contact *n on; or NULL.
+static const nsvcd__resident *nsvcd__next_beneath(const nsvcd__crowd *crowd,
+                                                  const nsvcd_world_mover *m, size_t *n) {
+  const nsvcd__d3 up = nsvcd__up_of(crowd);
+  while (*n < m->answer.contact_count && *n < NSVCD_WORLD_CONTACTS) {
+    const nsvcd_world_contact *c = &m->answer.contacts[(*n)++];
+    const nsvcd__resident *r = nsvcd__resident_of(crowd->world, c->body);
+    if (r && nsvcd__d3_dot(nsvcd__d3_load(c->contact.normal), up) > 0.5) return r;
+  }
+  return NULL;
+}
+
+static nsvcd__d3 nsvcd__mover_centre(const nsvcd__crowd *crowd, const nsvcd_world_mover *m) {
+  const nsvcd__resident *r = &crowd->world->residents[m->id];
+  return nsvcd__pivot_of(&r->given.pose, r->shape.pivot);
+}
+
+// Finds who stands, by way of others, on what rises: they have to go first, and the highest before
+// all, or those beneath are caught. Going up, each mover knows how fast that beneath it rises.
+static void nsvcd__find_rising(const nsvcd__crowd *crowd) {
+  const nsvcd_world *world = crowd->world;
+  const nsvcd__d3 up = nsvcd__up_of(crowd);
+  for (size_t k = 0; k < crowd->count; k++) {
+    nsvcd_world_mover *m = &crowd->movers[world->turns[k].mover];
+    const nsvcd__resident *r;
+    double rise = 0;
+    int is_direct = 0;
+    for (size_t n = 0; (r = nsvcd__next_beneath(crowd, m, &n)) != NULL;) {
+      const nsvcd__d3 goes = nsvcd__takes_along(crowd, r, nsvcd__mover_centre(crowd, m));
+      const double lifts = r->is_driven ? nsvcd__d3_dot(goes, up) : fabs((double)r->rise);
+      is_direct |= r->is_driven && lifts > 0;
+      rise = nsvcd__max(rise, lifts);
+    }
+    // whoever stands on it directly waits for those above
+    world->residents[m->id].rise = (float)(is_direct ? -rise : rise);
+    if (rise > 0 && m->asleep) nsvcd__wake(m);
+  }
+}
+
 // ---- a frame
 
-// Gives a mover what gravity adds to its speed, less what brakes it.
+// Gives a mover what gravity adds to its speed, less what brakes it: as seen from what it stands on.
 static void nsvcd__pull_and_brake(const nsvcd__crowd *crowd, nsvcd_world_mover *m) {
   const int is_braked = m->answer.contact_count > 0 && m->how.mass > 0 && m->how.friction > 0;
   const int is_slow =
@@ -3163,20 +3231,37 @@ static void nsvcd__pull_and_brake(const nsvcd__crowd *crowd, nsvcd_world_mover *
   const double speed = is_braked ? nsvcd__max(NSVCD__BRAKES_SPEED, quiet) : 0;
   const double spin = is_braked ? nsvcd__max(NSVCD__BRAKES_SPIN, quiet) : 0;
   const double seconds = (double)crowd->seconds;
+  size_t n = 0;
+  const nsvcd__resident *beneath = nsvcd__next_beneath(crowd, m, &n);
+  nsvcd__d3 goes = {0, 0, 0};
+  if (beneath) goes = nsvcd__takes_along(crowd, beneath, nsvcd__mover_centre(crowd, m));
   const nsvcd__d3 linear = nsvcd__d3_add(nsvcd__d3_load(m->velocity.linear), crowd->falls);
+  const nsvcd__d3 seen = nsvcd__d3_sub(linear, goes);
   const nsvcd__d3 angular = nsvcd__d3_load(m->velocity.angular);
   nsvcd__thing thing;
   memset(&thing, 0, sizeof thing);
-  thing.linear = nsvcd__d3_over(linear, 1 + seconds * (speed + (double)m->damping));
+  thing.linear =
+      nsvcd__d3_add(goes, nsvcd__d3_over(seen, 1 + seconds * (speed + (double)m->damping)));
   thing.angular = nsvcd__d3_over(angular, 1 + seconds * (spin + (double)m->spin_damping));
   nsvcd__tell_velocity(&thing, &m->velocity);
 }
 
+// Has a mover go up at least as fast as what it stands on.
+static void nsvcd__raise(const nsvcd__crowd *crowd, const nsvcd__resident *r,
+                         nsvcd_velocity *velocity) {
+  const nsvcd__d3 up = nsvcd__up_of(crowd);
+  const nsvcd__d3 linear = nsvcd__d3_load(velocity->linear);
+  const double lacks = nsvcd__max((double)r->rise - nsvcd__d3_dot(linear, up), 0);
+  nsvcd__f3_store(nsvcd__f3_round(nsvcd__d3_fma(lacks, up, linear)), velocity->linear);
+}
+
 static nsvcd_result nsvcd__step_mover(const nsvcd__crowd *crowd, nsvcd_world_mover *m,
                                       void *workspace, size_t size, nsvcd_step_answer *out) {
-  if (m->asleep || crowd->world->residents[m->id].is_driven) return NSVCD_OK;
+  nsvcd__resident *r = &crowd->world->residents[m->id];
+  if (m->asleep || r->is_driven) return NSVCD_OK;
   const nsvcd_velocity was = m->velocity;
   nsvcd__pull_and_brake(crowd, m);
+  if (r->rise > 0) nsvcd__raise(crowd, r, &m->velocity);
   const nsvcd_velocity came = m->velocity;
   const nsvcd_result result = nsvcd_world_slide(crowd->world, m->id, &m->how, crowd->seconds,
                                                 workspace, size, &m->velocity, &m->answer);
@@ -3215,9 +3300,13 @@ NSVCDDEF nsvcd_result nsvcd_world_step(nsvcd_world *world, nsvcd_world_mover *mo
     const int was_woken = !m->asleep && (double)m->calm >= crowd.calm;
     if (was_woken || (m->asleep && nsvcd__is_disturbed(&crowd, m))) nsvcd__wake(m);
   }
-  nsvcd__wake_near_driven(&crowd);
-  for (size_t k = 0; k < count; k++) {
-    nsvcd_world_mover *m = &movers[world->turns[k].mover];
+  const int is_driven = nsvcd__wake_near_driven(&crowd);
+  for (size_t k = 0; k < count; k++) world->residents[movers[k].id].rise = 0;
+  if (is_driven) nsvcd__find_rising(&crowd);
+  for (size_t k = is_driven ? 0 : count; k < 2 * count; k++) {
+    const int goes_up = k < count;  // from the highest on
+    nsvcd_world_mover *m = &movers[world->turns[goes_up ? count - 1 - k : k - count].mover];
+    if ((world->residents[m->id].rise > 0) != goes_up) continue;
     const nsvcd_result said = nsvcd__step_mover(&crowd, m, workspace, workspace_size, &out);
     if (said && !result) {
       result = said;

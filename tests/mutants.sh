@@ -224,7 +224,6 @@ asks: contacts that hold less|if (!(spanned > 1.001 * *area)) continue;|if (*are
 asks: contacts of one normal|int tries = nsvcd__manifold_normals(\&w->p, found, \&twist, normals);|int tries = nsvcd__manifold_normals(\&w->p, found, \&twist, normals) > 0;
 asks: all of a short way|fmax(0.25 * whole,|fmax(whole,
 asks: nothing between the directions|area > NSVCD__SLIM * square) return 0;|area >= 0) return 0;
-asks: few places looked at|if (tries == NSVCD__CONTACT_PAIRS|if (tries == 3
 ranges: a box without a joint|for (size_t k = 0; k < s->joints; k++) sum += k == without|for (size_t k = 1; k < s->joints; k++) sum += k == without
 ranges: a quarter of the width|s->half[k] = nsvcd__max(|s->half[k] = 0.25 * nsvcd__max(
 ranges: always without the travel|nsvcd__ask_range(r, 1, along, travel + room|nsvcd__ask_range(r, 1, along, 0 * travel + room
@@ -573,6 +572,8 @@ slide: stays at the clearance|left[k].least = NSVCD__LEAVES * nsvcd__max(holds[k
 slide: no way down|if (stood \&\& !s.ground \&\& given->step > 0 \&\& rises <= 0) nsvcd__step_down(\&s);|
 slide: a climb is no way|s->pace *= 1 - gone;|
 slide: nobody rides|s->ridden = nsvcd__driven_speed(s, s->ground->body, nsvcd__pivot_at(s));|
+step: who rises waits|if ((world->residents[m->id].rise > 0) != goes_up) continue;|if (goes_up) continue;
+step: who rises is not raised|if (r->rise > 0) nsvcd__raise(|if (0) nsvcd__raise(
 step: movers of the array's order|return a.height < b.height;|return a.mover < b.mover;
 step: a mover twice|if (!r \|\| r->mover != k \|\| r->given.fixed)|if (!r \|\| r->given.fixed)
 step: what is fixed moves|r->mover != k \|\| r->given.fixed)|r->mover != k)

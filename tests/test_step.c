@@ -77,6 +77,31 @@ static void seven_stacks_of_five_stand(void) {
   stage_end(&s);
 }
 
+// A stack goes up with a lift, at 3 m/s^2 and then 2 m/s.
+static void stacks_rise(void) {
+  enum { TALL = 4 };
+  stage s = stage_begin();
+  nsvcd_world_mover m[TALL];
+  const size_t lift = stage_add(&s, thing_box(3, 3, 0.2), pose_of(0, 0, -0.1), 0);
+  double at = 0;
+  for (int k = 0; k < TALL; k++) m[k] = add_cube(&s, 0, 0, 0.2515 + 0.5015 * k, 1, 1);
+  for (int f = 0; f < 60; f++) step(&s, m, TALL, &earth);
+  for (int k = 0; k < TALL; k++) CHECK_EQ(m[k].asleep, 1);
+  for (int f = 0; f < 90; f++) {
+    at += 2 * fmin(1, fmin(f, 89 - f) / 20.0) / 60;
+    const nsvcd_pose to = pose_of(0, 0, at - 0.1);
+    CHECK_EQ(nsvcd_world_drive(s.world, lift, &to), NSVCD_OK);
+    CHECK_EQ(step(&s, m, TALL, &earth).caught, 0);
+    keep_apart(&s, m, TALL);
+  }
+  for (int k = 0; k < TALL; k++) {
+    const nsvcd_pose now = stage_pose(&s, m[k].id);
+    CHECK_NEAR(now.position[2], at + 0.251 + 0.501 * k, 0.01);
+    CHECK_NEAR(now.position[0], 0, 0.01);
+  }
+  stage_end(&s);
+}
+
 // ---- momentum
 
 static double momentum_of(const nsvcd_world_mover *movers, int axis, size_t count) {
@@ -416,6 +441,7 @@ static void masses_are_those_on_paper(void) {
 
 void test_step(void) {
   RUN(seven_stacks_of_five_stand);
+  RUN(stacks_rise);
   RUN(two_share_their_momentum);
   RUN(a_crowd_gains_no_energy);
   RUN(what_sleeps_wakes);

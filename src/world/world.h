@@ -19,8 +19,9 @@ typedef struct nsvcd__resident {
   // when it came to where it is, on the world's clock
   uint64_t moved;
   uint32_t next_free;
-  // which of a step's movers it was last
+  // which of a step's movers it was last; and how fast what it stands on by way of others lifts it
   uint32_t mover;
+  float rise;
 } nsvcd__resident;
 
 // One of a step's movers, and how high it is.
