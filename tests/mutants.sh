@@ -224,7 +224,6 @@ asks: contacts that hold less|if (!(spanned > 1.001 * *area)) continue;|if (*are
 asks: contacts of one normal|int tries = nsvcd__manifold_normals(\&w->p, found, \&twist, normals);|int tries = nsvcd__manifold_normals(\&w->p, found, \&twist, normals) > 0;
 asks: all of a short way|fmax(0.25 * whole,|fmax(whole,
 asks: nothing between the directions|area > NSVCD__SLIM * square) return 0;|area >= 0) return 0;
-asks: few places looked at|if (tries == NSVCD__CONTACT_PAIRS|if (tries == 3
 ranges: a box without a joint|for (size_t k = 0; k < s->joints; k++) sum += k == without|for (size_t k = 1; k < s->joints; k++) sum += k == without
 ranges: a quarter of the width|s->half[k] = nsvcd__max(|s->half[k] = 0.25 * nsvcd__max(
 ranges: always without the travel|nsvcd__ask_range(r, 1, along, travel + room|nsvcd__ask_range(r, 1, along, 0 * travel + room
@@ -438,7 +437,7 @@ checker: a normal of 0|if (!(gap > least \&\& last > least \&\& gap < VERIFY__BE
 checker: corners that there are not|\|\| of->mesh->part[out->a] == NSVCD_VERIFY_NONE)|)
 contacts: inner edges are sides|    if (same_moving \&\& nsvcd__goes_on(at_it.pair.fixed, points->on_b, normal, same)) return 1;|
 contacts: edges of the moving body are sides|    if (same_fixed \&\& nsvcd__goes_on(at_it.posed, points->on_a, back, same)) return 1;|
-contacts: ghosts among supports|if (may_go_on \&\& nsvcd__goes_on_beside(|if (0 \&\& nsvcd__goes_on_beside(
+contacts: ghosts among supports|if ((number \& 2) \&\& nsvcd__goes_on_beside(|if (0 \&\& nsvcd__goes_on_beside(
 contacts: the nearest is left out|if (has_nearest) return (size_t)count;|if (count > 0) return (size_t)count;
 contacts: a side of all directions|if (nsvcd__f3_dot(other->normal, item->normal) >= NSVCD__SAME_SIDE) other->is_resolved = 1;|other->is_resolved = 1;
 contacts: corners over a face that is not the nearest|    if (!(side * heights[k] > 0)) return 0;|
