@@ -257,7 +257,6 @@ extern "C" {
 #include "triangles/triangle_pairs.h"  // two triangles, in double: separated, or in contact
 #include "triangles/touches.h"         // how deep triangles that touch are, and what undoes it
 #include "triangles/near.h"            // a list of what is near each other at rest
-#include "triangles/manifold.h"        // contact points, the farthest along directions
 
 // ======================================================== separate: until when surfaces stay apart
 #include "separate/slabs.h"           // planes along the slabs of patches and of groups
@@ -292,6 +291,7 @@ extern "C" {
 #include "query/long.h"      // the same of a motion of any length
 #include "query/leave.h"     // pushing out of a contact, and how deep it is
 #include "query/normals.h"   // a contact's normal, against the motion
+#include "query/manifold.h"  // contact points, the farthest along directions
 #include "query/supports.h"  // up to four contact points: where to seek them, and which
 #include "query/by_proof.h"  // an answer by proof
 #include "query/question.h"  // check, choose who moves, lay out the workspace, answer

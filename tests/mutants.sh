@@ -437,7 +437,7 @@ checker: a normal of 0|if (!(gap > least \&\& last > least \&\& gap < VERIFY__BE
 checker: corners that there are not|\|\| of->mesh->part[out->a] == NSVCD_VERIFY_NONE)|)
 contacts: inner edges are sides|    if (same_moving \&\& nsvcd__goes_on(at_it.pair.fixed, points->on_b, normal, same)) return 1;|
 contacts: edges of the moving body are sides|    if (same_fixed \&\& nsvcd__goes_on(at_it.posed, points->on_a, back, same)) return 1;|
-contacts: ghosts among supports|if (may_go_on \&\& nsvcd__goes_on_beside(|if (0 \&\& nsvcd__goes_on_beside(
+contacts: ghosts among supports|if ((number \& 2) \&\& nsvcd__goes_on_beside(|if (0 \&\& nsvcd__goes_on_beside(
 contacts: the nearest is left out|if (has_nearest) return (size_t)count;|if (count > 0) return (size_t)count;
 contacts: a side of all directions|if (nsvcd__f3_dot(other->normal, item->normal) >= NSVCD__SAME_SIDE) other->is_resolved = 1;|other->is_resolved = 1;
 contacts: corners over a face that is not the nearest|    if (!(side * heights[k] > 0)) return 0;|

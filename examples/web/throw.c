@@ -1,5 +1,6 @@
 // throw.c - a room to throw things in, as a WebAssembly module for throw.js: things, and one who
-// walks among them, are movers of an nsvcd_world. Each move is proven free before it is made, so that no two ever overlap; throw_overlaps asks whether that is so.
+// walks among them, are movers of an nsvcd_world. Each move is proven free before it is made, so that
+// no two ever overlap; throw_overlaps asks whether that is so.
 //
 // The module imports nothing, not even a clock. throw.js reads the structs in linear memory.
 #define NSVCD_NO_STDIO
@@ -169,13 +170,30 @@ static void drop(size_t k) {
   things[count].kind = -1;
 }
 
-// Whether there is room for it where it starts. It turns at random. Of too many the oldest goes.
+// Moves a pose so that a point of the body is where its origin was.
+static void centre(const float *point, nsvcd_pose *pose) {
+  const float *q = pose->rotation;
+  float across[3];
+  for (int k = 0; k < 3; k++) {
+    const int i = (k + 1) % 3;
+    const int j = (k + 2) % 3;
+    across[k] = 2 * (q[i] * point[j] - q[j] * point[i]);
+  }
+  for (int k = 0; k < 3; k++) {
+    const int i = (k + 1) % 3;
+    const int j = (k + 2) % 3;
+    pose->position[k] -= point[k] + q[3] * across[k] + q[i] * across[j] - q[j] * across[i];
+  }
+}
+
+// Whether there is room for it where it starts, about its centre of mass. It turns at random. Of too many the oldest goes.
 int EXPORT(throw_thing)(size_t kind, float x, float y, float z, float to_x, float to_y,
                         float to_z) {
   double q[4];
   nsvcd_pose pose = {{x, y, z}, {0, 0, 0, 1}};
   shapes_quaternion(&rng, q);
   for (int k = 0; k < 4; k++) pose.rotation[k] = (float)q[k];
+  centre(shapes[kind].mass.centre, &pose);
   if (count == MOST + 1) drop(1 + next++ % MOST);
   const size_t id = props_add(world, &shapes[kind], 1, 5, &pose);
   nsvcd_world_mover m = props_mover(id, &shapes[kind], 1, 5, 0.002f);

@@ -195,7 +195,7 @@ typedef struct nsvcd__touch {
   nsvcd__d3 directions[3];
 } nsvcd__touch;
 
-// Where the bodies touch at a contact: triangles/manifold.
+// Where the bodies touch at a contact: query/manifold.
 typedef struct nsvcd__manifold {
   // unit: the contact's, and directions across it
   nsvcd__d3 normal, along[NSVCD__SUPPORTS];

@@ -14,6 +14,18 @@
 #include "verdict.h"
 
 #ifndef NSVCD_NO_PROOF
+static nsvcd__d3 nsvcd__twist_of(const nsvcd__twist *twist, nsvcd__d3 x) {
+  return nsvcd__d3_add(twist->along, nsvcd__d3_cross(twist->turn, x));
+}
+
+// Are these of closed surfaces, whose winding says which side is out?
+static int nsvcd__moving_closed(const nsvcd__proof *p, const nsvcd__triangle_pair *c) {
+  return nsvcd__is_in_solid(&p->moving, c->moving_patch, c->moving_entry);
+}
+static int nsvcd__fixed_closed(const nsvcd__proof *p, const nsvcd__triangle_pair *c) {
+  return nsvcd__is_in_solid(&p->fixed, c->fixed_patch, c->fixed_entry);
+}
+
 // The moving body's twist there, as the fixed body sees it.
 static nsvcd__twist nsvcd__twist_at(const nsvcd__arc *arc, double u) {
   const nsvcd__dtransform at = nsvcd__dtransform_at(arc, u);

@@ -2,7 +2,7 @@
 // points that span the largest area.
 #pragma once
 #include "../task/task.h"
-#include "verdict.h"
+#include "manifold.h"
 
 #ifndef NSVCD_NO_PROOF
 // Prepares a manifold of contacts with about this normal, unit, of bodies that move like this.

@@ -1,7 +1,7 @@
 // In: a patch pair and a time. Out: a contact: two triangles that meet then, or come within the
 // clearance; with a slop, what touches at the start and which directions undo it.
 #pragma once
-#include "../triangles/manifold.h"
+#include "../triangles/near.h"
 #include "../triangles/touches.h"
 #include "blocks.h"
 

@@ -116,10 +116,6 @@ static nsvcd__dtransform nsvcd__dtransform_at(const nsvcd__arc *arc, double u) {
   return at;
 }
 
-static nsvcd__d3 nsvcd__twist_of(const nsvcd__twist *twist, nsvcd__d3 x) {
-  return nsvcd__d3_add(twist->along, nsvcd__d3_cross(twist->turn, x));
-}
-
 // The true pose at fraction u of p->arc, remembered: triangle pairs ask for the same poses again.
 // The pose of the call before stays where it is.
 static const nsvcd__dtransform *nsvcd__arc_pose(nsvcd__arcs *arcs, double u) {

@@ -68,14 +68,6 @@ static nsvcd__triangle_pair nsvcd__pair_of(const nsvcd__proof *p, size_t i, size
   return pair;
 }
 
-// Are these of closed surfaces, whose winding says which side is out?
-static int nsvcd__moving_closed(const nsvcd__proof *p, const nsvcd__triangle_pair *c) {
-  return nsvcd__is_in_solid(&p->moving, c->moving_patch, c->moving_entry);
-}
-static int nsvcd__fixed_closed(const nsvcd__proof *p, const nsvcd__triangle_pair *c) {
-  return nsvcd__is_in_solid(&p->fixed, c->fixed_patch, c->fixed_entry);
-}
-
 // The nearest points of a triangle pair at fraction u of the arc.
 static nsvcd__nearest nsvcd__pair_nearest(nsvcd__arcs *arcs, const nsvcd__triangle_pair *pair,
                                           double u) {

@@ -8,9 +8,61 @@
 // count: where a side rises from the floor, corners of the floor's triangles are near the side as
 // well, but the body does not stand on it.
 #pragma once
-#include "near.h"
+#include "normals.h"
 
 #ifndef NSVCD_NO_PROOF
+// A surface that leans towards the other by more than this sine goes on to where it is nearer.
+#define NSVCD__STEEP 0.1
+
+// A near triangle pair as it is posed.
+typedef struct nsvcd__posed_pair {
+  nsvcd__triangle_pair pair;
+  nsvcd__d3 posed[3];  // the moving triangle
+} nsvcd__posed_pair;
+
+static void nsvcd__posed_pair_of(const nsvcd__proof *p, const nsvcd__dtransform *at,
+                                 const nsvcd__near_pair *item, nsvcd__posed_pair *out) {
+  out->pair = nsvcd__still_pair_of(p, item->moving_patch, item->fixed_patch,
+                                   item->moving_entry, item->fixed_entry);
+  nsvcd__pose_triangle(at, out->pair.moving, out->posed);
+}
+
+// Does a triangle go on along a direction from a point of it, or near it?
+static int nsvcd__goes_on(const nsvcd__d3 *triangle, nsvcd__d3 from, nsvcd__d3 along,
+                          double same) {
+  const nsvcd__d3 point[3] = {from, from, from};
+  int goes_on = 0;
+  for (size_t k = 0; k < 3; k++) {
+    const nsvcd__d3 arm = nsvcd__d3_sub(triangle[k], from);
+    const double height = nsvcd__d3_dot(along, arm);
+    goes_on |= height > same && height > NSVCD__STEEP * nsvcd__d3_norm(arm);
+  }
+  return goes_on && nsvcd__nearest_of(triangle, point).square <= same * same;
+}
+
+// Does a surface go on from where two triangles are near each other, with this direction, to where
+// the other is nearer? Then that is no contact. It is enough to ask the triangles of one body at a
+// time, each with the same triangle of the other, and these are in the list as well.
+static NSVCD__NOINLINE int nsvcd__goes_on_beside(const nsvcd__proof *p, uint32_t moving,
+                                                 uint32_t fixed, const nsvcd__nearest *points,
+                                                 nsvcd__d3 normal) {
+  const nsvcd__near_list *list = &p->near_list;
+  const nsvcd__dtransform at = nsvcd__dtransform_at(&p->arcs.arc, 0);
+  const nsvcd__d3 back = nsvcd__d3_scale(normal, -1);
+  const double same = nsvcd__epsilon(p);
+  for (uint32_t n = 0; n < list->count; n++) {
+    const nsvcd__near_pair *item = &list->items[n];
+    const int same_moving = item->moving_triangle == moving;
+    const int same_fixed = item->fixed_triangle == fixed;
+    if (!same_moving && !same_fixed) continue;
+    nsvcd__posed_pair at_it;
+    nsvcd__posed_pair_of(p, &at, item, &at_it);
+    if (same_moving && nsvcd__goes_on(at_it.pair.fixed, points->on_b, normal, same)) return 1;
+    if (same_fixed && nsvcd__goes_on(at_it.posed, points->on_a, back, same)) return 1;
+  }
+  return 0;
+}
+
 // A triangle pair of a manifold.
 typedef struct nsvcd__facing {
   const nsvcd__triangle_pair *pair;
