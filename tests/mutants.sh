@@ -581,7 +581,7 @@ step: more than there can be|if (count > world->most) return NSVCD_ERROR_INDEX;|
 step: sleeps while it is driven at|if (m \&\& m->asleep) nsvcd__wake(m);|
 step: sleeps on what is gone|return !r \|\| (r->moved > since|return r \&\& (r->moved > since
 step: sleeps on what falls|nsvcd__mover_speed(crowd, other) > crowd->quiet) return 1;|0) return 1;
-step: what is driven slides|if (m->asleep \|\| crowd->world->residents[m->id].is_driven) return NSVCD_OK;|if (m->asleep) return NSVCD_OK;
+step: what is driven slides|if (m->asleep \|\| r->is_driven) return NSVCD_OK;|if (m->asleep) return NSVCD_OK;
 step: driven for good|const nsvcd_result arrives = nsvcd_world_arrive(world);|const nsvcd_result arrives = NSVCD_OK;
 step: nobody sleeps|m->asleep = 1;|
 step: nothing is taken off|if (other) nsvcd__push(other, \&at->other, -more);|

@@ -225,7 +225,8 @@ static void nsvcd__find_rising(const nsvcd__crowd *crowd) {
 
 // ---- a frame
 
-// Gives a mover what gravity adds to its speed, less what brakes it: as seen from what it stands on.
+// Gives a mover what gravity adds to its speed, less what brakes it, as seen from what it stands
+// on.
 static void nsvcd__pull_and_brake(const nsvcd__crowd *crowd, nsvcd_world_mover *m) {
   const int is_braked = m->answer.contact_count > 0 && m->how.mass > 0 && m->how.friction > 0;
   const int is_slow =
