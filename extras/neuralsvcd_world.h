@@ -334,8 +334,8 @@ typedef struct nsvcd_step_answer {
 //              library
 //
 // What is proven is proven as of slides: no two bodies overlap, if none did. The rest is physics:
-//   Who stands, by way of other movers, on what is driven up goes first, the highest before all, and
-// as fast: so a stack rises with its lift.
+//   Whoever stands on other movers on a lift that rises goes before all others, the highest first,
+// and as fast as the lift: so a stack rises with it.
 //   A mover that is driven (nsvcd_world_drive) goes where it is driven, for that frame, as one that
 // nothing stops, and its velocity is left alone.
 //   What two bodies give each other keeps their momentum along the normal, and gains no energy.
