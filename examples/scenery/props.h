@@ -44,7 +44,25 @@ SHAPES_DEF int props_is_free(const nsvcd_world *world, const nsvcd_world_mover *
          answer.verdict == NSVCD_FREE;
 }
 
-// A body of a shape. Without a mass it is fixed.
+// Moves a pose so that a point of the body is where its origin was.
+SHAPES_DEF void props_centre(const float *point, float scale, nsvcd_pose *pose) {
+  const float *q = pose->rotation;
+  float across[3];
+  for (int k = 0; k < 3; k++) {
+    const int i = (k + 1) % 3;
+    const int j = (k + 2) % 3;
+    across[k] = 2 * (q[i] * point[j] - q[j] * point[i]);
+  }
+  for (int k = 0; k < 3; k++) {
+    const int i = (k + 1) % 3;
+    const int j = (k + 2) % 3;
+    pose->position[k] -=
+        scale * (point[k] + q[3] * across[k] + q[i] * across[j] - q[j] * across[i]);
+  }
+}
+
+// A body of a shape, with its centre of mass at the pose. Without a mass it is fixed, with its origin
+// there.
 SHAPES_DEF size_t props_add(nsvcd_world *world, const props_shape *shape, float scale, float mass,
                             const nsvcd_pose *pose) {
   nsvcd_world_body body;
@@ -54,6 +72,7 @@ SHAPES_DEF size_t props_add(nsvcd_world *world, const props_shape *shape, float 
   body.pose = *pose;
   body.scale = scale;
   body.fixed = !(mass > 0);
+  if (mass > 0) props_centre(shape->mass.centre, scale, &body.pose);
   memcpy(body.pivot, shape->mass.centre, sizeof body.pivot);
   return nsvcd_world_add(world, &body, &id) ? NSVCD_NOBODY : id;
 }

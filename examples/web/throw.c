@@ -170,22 +170,6 @@ static void drop(size_t k) {
   things[count].kind = -1;
 }
 
-// Moves a pose so that a point of the body is where its origin was.
-static void centre(const float *point, nsvcd_pose *pose) {
-  const float *q = pose->rotation;
-  float across[3];
-  for (int k = 0; k < 3; k++) {
-    const int i = (k + 1) % 3;
-    const int j = (k + 2) % 3;
-    across[k] = 2 * (q[i] * point[j] - q[j] * point[i]);
-  }
-  for (int k = 0; k < 3; k++) {
-    const int i = (k + 1) % 3;
-    const int j = (k + 2) % 3;
-    pose->position[k] -= point[k] + q[3] * across[k] + q[i] * across[j] - q[j] * across[i];
-  }
-}
-
 // Whether there is room for it where it starts, about its centre of mass. It turns at random. Of too many the oldest goes.
 int EXPORT(throw_thing)(size_t kind, float x, float y, float z, float to_x, float to_y,
                         float to_z) {
@@ -193,7 +177,6 @@ int EXPORT(throw_thing)(size_t kind, float x, float y, float z, float to_x, floa
   nsvcd_pose pose = {{x, y, z}, {0, 0, 0, 1}};
   shapes_quaternion(&rng, q);
   for (int k = 0; k < 4; k++) pose.rotation[k] = (float)q[k];
-  centre(shapes[kind].mass.centre, &pose);
   if (count == MOST + 1) drop(1 + next++ % MOST);
   const size_t id = props_add(world, &shapes[kind], 1, 5, &pose);
   nsvcd_world_mover m = props_mover(id, &shapes[kind], 1, 5, 0.002f);
