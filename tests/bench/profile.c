@@ -17,8 +17,8 @@
 #include "../../examples/scenery/status_of.h"
 #include "meter.h"
 
-#define SCALE(factor) \
-  (const float[3]) { \
+#define SCALE(factor)      \
+  (const float[3]) {       \
     factor, factor, factor \
   }
 
@@ -241,8 +241,8 @@ static void profile(const problem_file *file, size_t points) {
     nsvcd_answer answer;
     nsvcd_body_scale((const nsvcd_body *)(bodies + p->moving * size), SCALE(p->moving_scale),
                      moving_memory, size, &q.moving);
-    nsvcd_body_scale((const nsvcd_body *)(bodies + p->fixed * size), SCALE(p->fixed_scale), fixed_memory,
-                     size, &q.fixed);
+    nsvcd_body_scale((const nsvcd_body *)(bodies + p->fixed * size), SCALE(p->fixed_scale),
+                     fixed_memory, size, &q.fixed);
     for (size_t s = 0; s < STAGES; s++) one[s] = 1e9;
     for (int run = 0; run < 5; run++) run_stages(&q, work, one);
     for (int run = 0; run < 5; run++) {

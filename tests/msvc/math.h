@@ -15,6 +15,8 @@ extern "C" {
 ONE(fabs); ONE(sqrt); ONE(floor); ONE(ceil); ONE(sin); ONE(cos); ONE(tan); ONE(asin); ONE(acos);
 ONE(atan); ONE(exp); ONE(log); ONE(log2); ONE(tanh); ONE(round);
 TWO(fmax); TWO(fmin); TWO(atan2); TWO(nextafter); TWO(pow); TWO(fmod); TWO(copysign);
+double frexp(double, int *);
+double ldexp(double, int);
 long lrint(double);
 long lrintf(float);
 #undef ONE
