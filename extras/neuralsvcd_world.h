@@ -3391,7 +3391,7 @@ static nsvcd_result nsvcd__box_of_mesh(const nsvcd_mesh *mesh, nsvcd__box *box) 
 
 NSVCDDEF nsvcd_result nsvcd_mesh_mass(const nsvcd_mesh *mesh, nsvcd_mass *mass) {
   nsvcd__moments m;
-  nsvcd__box box;
+  nsvcd__box box = {{0, 0, 0}, {0, 0, 0}};
   if (!mass) return NSVCD_ERROR_ARGUMENT;
   memset(&m, 0, sizeof m);
   const nsvcd_result result = nsvcd__box_of_mesh(mesh, &box);
