@@ -3417,24 +3417,24 @@ static size_t nsvcd__grid_triangles(const float *heights, size_t rows, size_t co
                                     uint32_t *indices) {
   size_t count = 0;
   // of the sample in the row, and of the one beside it in the next: how many before are no holes
-  uint32_t near = 0;
-  uint32_t far = 0;
-  for (size_t i = 0; i < columns; i++) far += !nsvcd__is_hole(heights[i]);
+  uint32_t this_row = 0;
+  uint32_t next_row = 0;
+  for (size_t i = 0; i < columns; i++) next_row += !nsvcd__is_hole(heights[i]);
   for (size_t row = 0; row + 1 < rows; row++) {
     for (size_t column = 0; column < columns; column++) {
       const float *here = heights + row * columns + column;
-      const uint32_t has_near = !nsvcd__is_hole(here[0]);
-      const uint32_t has_far = !nsvcd__is_hole(here[columns]);
+      const uint32_t is_here = !nsvcd__is_hole(here[0]);
+      const uint32_t is_next = !nsvcd__is_hole(here[columns]);
       // the cell's corners that are there, counter-clockwise
       uint32_t corners[4];
       size_t found = 0;
-      if (has_near) corners[found++] = near;
-      near += has_near;
-      far += has_far;
+      if (is_here) corners[found++] = this_row;
+      this_row += is_here;
+      next_row += is_next;
       if (column + 1 == columns) continue;
-      if (!nsvcd__is_hole(here[1])) corners[found++] = near;
-      if (!nsvcd__is_hole(here[columns + 1])) corners[found++] = far;
-      if (has_far) corners[found++] = far - 1;
+      if (!nsvcd__is_hole(here[1])) corners[found++] = this_row;
+      if (!nsvcd__is_hole(here[columns + 1])) corners[found++] = next_row;
+      if (is_next) corners[found++] = next_row - 1;
       for (size_t k = 2; k < found; k++, count++) {
         if (!indices) continue;
         indices[3 * count] = corners[0];
