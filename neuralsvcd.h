@@ -20976,7 +20976,7 @@ static int nsvcd__list_all_near(nsvcd__query *query, nsvcd__goal goal) {
 
 // Chooses up to four contacts with about a normal from the list: which supports, and twice the area
 // that they span. Only triangle pairs are asked whose directions are no farther from it than a
-// cosine. Returns how many.
+// cosine; below -1: all. Returns how many.
 static int nsvcd__supports_of(nsvcd__proof *p, nsvcd__d3 normal, const nsvcd__twist *twist,
                               double least, double same, int *chosen, double *area) {
   nsvcd__manifold *m = &p->of.kept.manifold;
@@ -21275,7 +21275,7 @@ static NSVCD__NOINLINE void nsvcd__write_manifold(nsvcd__query *query, nsvcd__go
   for (int k = 0; k < tries; k++) {
     int chosen[NSVCD_MAX_CONTACTS];
     double area;
-    const int count = nsvcd__supports_of(&w->p, normals[k], &twist, -1, same, chosen, &area);
+    const int count = nsvcd__supports_of(&w->p, normals[k], &twist, -2, same, chosen, &area);
     if (count == 0 || !(area > 1.001 * widest)) continue;
     widest = area;
     if (count > 2 && area > 0.1 * extent * extent) tries = 1;

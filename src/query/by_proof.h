@@ -280,7 +280,7 @@ static NSVCD__NOINLINE void nsvcd__write_manifold(nsvcd__query *query, nsvcd__go
   for (int k = 0; k < tries; k++) {
     int chosen[NSVCD_MAX_CONTACTS];
     double area;
-    const int count = nsvcd__supports_of(&w->p, normals[k], &twist, -1, same, chosen, &area);
+    const int count = nsvcd__supports_of(&w->p, normals[k], &twist, -2, same, chosen, &area);
     if (count == 0 || !(area > 1.001 * widest)) continue;
     widest = area;
     if (count > 2 && area > 0.1 * extent * extent) tries = 1;

@@ -121,7 +121,7 @@ static int nsvcd__list_all_near(nsvcd__query *query, nsvcd__goal goal) {
 
 // Chooses up to four contacts with about a normal from the list: which supports, and twice the area
 // that they span. Only triangle pairs are asked whose directions are no farther from it than a
-// cosine. Returns how many.
+// cosine; below -1: all. Returns how many.
 static int nsvcd__supports_of(nsvcd__proof *p, nsvcd__d3 normal, const nsvcd__twist *twist,
                               double least, double same, int *chosen, double *area) {
   nsvcd__manifold *m = &p->of.kept.manifold;
