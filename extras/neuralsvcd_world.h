@@ -1422,7 +1422,8 @@ typedef struct nsvcd__resident {
   // when it came to where it is, on the world's clock
   uint64_t moved;
   uint32_t next_free;
-  // which of a step's movers it was last; and how fast what it stands on by way of others lifts it
+  // which of a step's movers it was last; and how fast a lift raises it, negative if it stands on
+  // that itself, and not by way of others
   uint32_t mover;
   float rise;
 } nsvcd__resident;
@@ -2159,6 +2160,11 @@ static double nsvcd__give_of(const nsvcd__thing *thing, nsvcd__d3 arm, nsvcd__d3
   return thing->inverse_mass + nsvcd__d3_dot(moment, *turn);
 }
 
+static void nsvcd__push(nsvcd__thing *thing, const nsvcd__hold *hold, double impulse) {
+  thing->linear = nsvcd__d3_fma(impulse * thing->inverse_mass, hold->normal, thing->linear);
+  thing->angular = nsvcd__d3_fma(impulse, hold->turn, thing->angular);
+}
+
 // soft: a fraction of what the contact gives way by to a unit impulse, by which it gives way
 // besides. Returns by how much the impulse along the normal has changed.
 static double nsvcd__respond_at(nsvcd__thing *thing, nsvcd__hold *hold, double soft) {
@@ -2168,8 +2174,7 @@ static double nsvcd__respond_at(nsvcd__thing *thing, nsvcd__hold *hold, double s
   const double lacks = hold->least - along - soft * hold->give * before;
   hold->pushed = nsvcd__max(before + lacks / (hold->give + soft * hold->give), 0);
   const double more = hold->pushed - before;
-  thing->linear = nsvcd__d3_fma(more * thing->inverse_mass, hold->normal, thing->linear);
-  thing->angular = nsvcd__d3_fma(more, hold->turn, thing->angular);
+  nsvcd__push(thing, hold, more);
   if (!(thing->friction > 0) || !(before + hold->pushed > 0)) return fabs(more);
   const nsvcd__d3 now = nsvcd__d3_sub(nsvcd__speed_at(thing, hold->arm), hold->speed);
   const nsvcd__d3 aside = nsvcd__d3_fma(-nsvcd__d3_dot(now, hold->normal), hold->normal, now);
@@ -2283,6 +2288,17 @@ static nsvcd__d3 nsvcd__pivot_at(const nsvcd__slide *s) {
   return nsvcd__pivot_of(&s->pose, s->ask.shape.pivot);
 }
 
+// How far a point goes with a body, from one of its poses to another.
+static nsvcd__d3 nsvcd__moved_along(const nsvcd__dpose *from, const nsvcd_pose *to,
+                                    nsvcd__d3 point) {
+  const nsvcd__dpose end = nsvcd__dpose_of(to);
+  const nsvcd__dtransform now = nsvcd__dtransform_of(from);
+  const nsvcd__dtransform then = nsvcd__dtransform_of(&end);
+  const nsvcd__d3 own =
+      nsvcd__dmat3_apply_transpose(&now.rotation, nsvcd__d3_sub(point, now.position));
+  return nsvcd__d3_sub(nsvcd__d3_transform(&then, own), point);
+}
+
 // How fast a driven body moves a point that is there now, and goes with it, on average over what is
 // left of the frame.
 static nsvcd__d3 nsvcd__driven_speed(const nsvcd__slide *s, size_t id, nsvcd__d3 point) {
@@ -2290,12 +2306,7 @@ static nsvcd__d3 nsvcd__driven_speed(const nsvcd__slide *s, size_t id, nsvcd__d3
   if (!r->is_driven || !(s->left > 0)) return nsvcd__d3_of(0, 0, 0);
   const nsvcd__dpose at =
       nsvcd__dpose_between(&r->given.pose, &r->to, r->shape.pivot, 1 - s->left);
-  const nsvcd__dpose end = nsvcd__dpose_of(&r->to);
-  const nsvcd__dtransform now = nsvcd__dtransform_of(&at);
-  const nsvcd__dtransform then = nsvcd__dtransform_of(&end);
-  const nsvcd__d3 own =
-      nsvcd__dmat3_apply_transpose(&now.rotation, nsvcd__d3_sub(point, now.position));
-  const nsvcd__d3 moved = nsvcd__d3_sub(nsvcd__d3_transform(&then, own), point);
+  const nsvcd__d3 moved = nsvcd__moved_along(&at, &r->to, point);
   return nsvcd__d3_scale(moved, 1 / (s->left * s->seconds));
 }
 
@@ -2789,8 +2800,8 @@ typedef struct nsvcd__crowd {
   nsvcd_world_mover *movers;
   size_t count;
   float seconds;
-  // what gravity adds to a speed in the frame
-  nsvcd__d3 falls;
+  // what gravity adds to a speed in the frame; and against it, unit, or 0
+  nsvcd__d3 falls, up;
   // metres a second, seconds
   double quiet, calm;
 } nsvcd__crowd;
@@ -2841,11 +2852,6 @@ static nsvcd__hold nsvcd__hold_of(const nsvcd__crowd *crowd, size_t id,
 
 static double nsvcd__speed_along(const nsvcd__thing *thing, const nsvcd__hold *hold) {
   return nsvcd__d3_dot(nsvcd__speed_at(thing, hold->arm), hold->normal);
-}
-
-static void nsvcd__push(nsvcd__thing *thing, const nsvcd__hold *hold, double impulse) {
-  thing->linear = nsvcd__d3_fma(impulse * thing->inverse_mass, hold->normal, thing->linear);
-  thing->angular = nsvcd__d3_fma(impulse, hold->turn, thing->angular);
 }
 
 // Does a mover take part in a contact? came: the body before its slide.
@@ -3045,6 +3051,7 @@ static nsvcd_result nsvcd__step_begin(nsvcd_world *world, nsvcd_world_mover *mov
   crowd->count = count;
   crowd->seconds = seconds;
   crowd->falls = nsvcd__d3_scale(nsvcd__d3_load(gravity), (double)seconds);
+  crowd->up = nsvcd__d3_unit(nsvcd__d3_scale(crowd->falls, -1), nsvcd__d3_of(0, 0, 0));
   crowd->quiet = options->quiet > 0 ? (double)options->quiet : NSVCD__USUAL_QUIET;
   crowd->calm = options->calm > 0 ? (double)options->calm : NSVCD__USUAL_CALM;
   for (size_t k = 0; k < count; k++) {
@@ -3160,35 +3167,23 @@ static void nsvcd__grow_calm(const nsvcd__crowd *crowd, nsvcd_world_mover *m) {
 
 // ---- lifts
 
-// Against gravity, unit; or 0.
-static nsvcd__d3 nsvcd__up_of(const nsvcd__crowd *crowd) {
-  const nsvcd__d3 none = {0, 0, 0};
-  return nsvcd__d3_unit(nsvcd__d3_scale(crowd->falls, -1), none);
-}
-
 // How fast a driven body takes a point along that is there now, metres a second; 0: it is not
 // driven.
 static nsvcd__d3 nsvcd__takes_along(const nsvcd__crowd *crowd, const nsvcd__resident *r,
                                     nsvcd__d3 point) {
   if (!r->is_driven) return nsvcd__d3_of(0, 0, 0);
   const nsvcd__dpose from = nsvcd__dpose_of(&r->given.pose);
-  const nsvcd__dpose to = nsvcd__dpose_of(&r->to);
-  const nsvcd__dtransform now = nsvcd__dtransform_of(&from);
-  const nsvcd__dtransform then = nsvcd__dtransform_of(&to);
-  const nsvcd__d3 own =
-      nsvcd__dmat3_apply_transpose(&now.rotation, nsvcd__d3_sub(point, now.position));
-  const nsvcd__d3 moved = nsvcd__d3_sub(nsvcd__d3_transform(&then, own), point);
+  const nsvcd__d3 moved = nsvcd__moved_along(&from, &r->to, point);
   return nsvcd__d3_over(moved, (double)crowd->seconds);
 }
 
 // The next body beneath a mover, as it was after its last slide, from contact *n on; or NULL.
 static const nsvcd__resident *nsvcd__next_beneath(const nsvcd__crowd *crowd,
                                                   const nsvcd_world_mover *m, size_t *n) {
-  const nsvcd__d3 up = nsvcd__up_of(crowd);
   while (*n < m->answer.contact_count && *n < NSVCD_WORLD_CONTACTS) {
     const nsvcd_world_contact *c = &m->answer.contacts[(*n)++];
     const nsvcd__resident *r = nsvcd__resident_of(crowd->world, c->body);
-    if (r && nsvcd__d3_dot(nsvcd__d3_load(c->contact.normal), up) > 0.5) return r;
+    if (r && nsvcd__d3_dot(nsvcd__d3_load(c->contact.normal), crowd->up) > 0.5) return r;
   }
   return NULL;
 }
@@ -3202,7 +3197,6 @@ static nsvcd__d3 nsvcd__mover_centre(const nsvcd__crowd *crowd, const nsvcd_worl
 // all, or those beneath are caught. Going up, each mover knows how fast that beneath it rises.
 static void nsvcd__find_rising(const nsvcd__crowd *crowd) {
   const nsvcd_world *world = crowd->world;
-  const nsvcd__d3 up = nsvcd__up_of(crowd);
   for (size_t k = 0; k < crowd->count; k++) {
     nsvcd_world_mover *m = &crowd->movers[world->turns[k].mover];
     const nsvcd__resident *r;
@@ -3210,7 +3204,8 @@ static void nsvcd__find_rising(const nsvcd__crowd *crowd) {
     int is_direct = 0;
     for (size_t n = 0; (r = nsvcd__next_beneath(crowd, m, &n)) != NULL;) {
       const nsvcd__d3 goes = nsvcd__takes_along(crowd, r, nsvcd__mover_centre(crowd, m));
-      const double lifts = r->is_driven ? nsvcd__d3_dot(goes, up) : fabs((double)r->rise);
+      const double lifts =
+          r->is_driven ? nsvcd__d3_dot(goes, crowd->up) : fabs((double)r->rise);
       is_direct |= r->is_driven && lifts > 0;
       rise = nsvcd__max(rise, lifts);
     }
@@ -3250,10 +3245,9 @@ static void nsvcd__pull_and_brake(const nsvcd__crowd *crowd, nsvcd_world_mover *
 // Has a mover go up at least as fast as what it stands on.
 static void nsvcd__raise(const nsvcd__crowd *crowd, const nsvcd__resident *r,
                          nsvcd_velocity *velocity) {
-  const nsvcd__d3 up = nsvcd__up_of(crowd);
   const nsvcd__d3 linear = nsvcd__d3_load(velocity->linear);
-  const double lacks = nsvcd__max((double)r->rise - nsvcd__d3_dot(linear, up), 0);
-  nsvcd__f3_store(nsvcd__f3_round(nsvcd__d3_fma(lacks, up, linear)), velocity->linear);
+  const double lacks = nsvcd__max((double)r->rise - nsvcd__d3_dot(linear, crowd->up), 0);
+  nsvcd__f3_store(nsvcd__f3_round(nsvcd__d3_fma(lacks, crowd->up, linear)), velocity->linear);
 }
 
 static nsvcd_result nsvcd__step_mover(const nsvcd__crowd *crowd, nsvcd_world_mover *m,

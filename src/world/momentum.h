@@ -27,8 +27,8 @@ typedef struct nsvcd__crowd {
   nsvcd_world_mover *movers;
   size_t count;
   float seconds;
-  // what gravity adds to a speed in the frame
-  nsvcd__d3 falls;
+  // what gravity adds to a speed in the frame; and against it, unit, or 0
+  nsvcd__d3 falls, up;
   // metres a second, seconds
   double quiet, calm;
 } nsvcd__crowd;
@@ -79,11 +79,6 @@ static nsvcd__hold nsvcd__hold_of(const nsvcd__crowd *crowd, size_t id,
 
 static double nsvcd__speed_along(const nsvcd__thing *thing, const nsvcd__hold *hold) {
   return nsvcd__d3_dot(nsvcd__speed_at(thing, hold->arm), hold->normal);
-}
-
-static void nsvcd__push(nsvcd__thing *thing, const nsvcd__hold *hold, double impulse) {
-  thing->linear = nsvcd__d3_fma(impulse * thing->inverse_mass, hold->normal, thing->linear);
-  thing->angular = nsvcd__d3_fma(impulse, hold->turn, thing->angular);
 }
 
 // Does a mover take part in a contact? came: the body before its slide.

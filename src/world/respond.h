@@ -66,6 +66,11 @@ static double nsvcd__give_of(const nsvcd__thing *thing, nsvcd__d3 arm, nsvcd__d3
   return thing->inverse_mass + nsvcd__d3_dot(moment, *turn);
 }
 
+static void nsvcd__push(nsvcd__thing *thing, const nsvcd__hold *hold, double impulse) {
+  thing->linear = nsvcd__d3_fma(impulse * thing->inverse_mass, hold->normal, thing->linear);
+  thing->angular = nsvcd__d3_fma(impulse, hold->turn, thing->angular);
+}
+
 // soft: a fraction of what the contact gives way by to a unit impulse, by which it gives way
 // besides. Returns by how much the impulse along the normal has changed.
 static double nsvcd__respond_at(nsvcd__thing *thing, nsvcd__hold *hold, double soft) {
@@ -75,8 +80,7 @@ static double nsvcd__respond_at(nsvcd__thing *thing, nsvcd__hold *hold, double s
   const double lacks = hold->least - along - soft * hold->give * before;
   hold->pushed = nsvcd__max(before + lacks / (hold->give + soft * hold->give), 0);
   const double more = hold->pushed - before;
-  thing->linear = nsvcd__d3_fma(more * thing->inverse_mass, hold->normal, thing->linear);
-  thing->angular = nsvcd__d3_fma(more, hold->turn, thing->angular);
+  nsvcd__push(thing, hold, more);
   if (!(thing->friction > 0) || !(before + hold->pushed > 0)) return fabs(more);
   const nsvcd__d3 now = nsvcd__d3_sub(nsvcd__speed_at(thing, hold->arm), hold->speed);
   const nsvcd__d3 aside = nsvcd__d3_fma(-nsvcd__d3_dot(now, hold->normal), hold->normal, now);

@@ -48,6 +48,7 @@ static nsvcd_result nsvcd__step_begin(nsvcd_world *world, nsvcd_world_mover *mov
   crowd->count = count;
   crowd->seconds = seconds;
   crowd->falls = nsvcd__d3_scale(nsvcd__d3_load(gravity), (double)seconds);
+  crowd->up = nsvcd__d3_unit(nsvcd__d3_scale(crowd->falls, -1), nsvcd__d3_of(0, 0, 0));
   crowd->quiet = options->quiet > 0 ? (double)options->quiet : NSVCD__USUAL_QUIET;
   crowd->calm = options->calm > 0 ? (double)options->calm : NSVCD__USUAL_CALM;
   for (size_t k = 0; k < count; k++) {
@@ -163,35 +164,23 @@ static void nsvcd__grow_calm(const nsvcd__crowd *crowd, nsvcd_world_mover *m) {
 
 // ---- lifts
 
-// Against gravity, unit; or 0.
-static nsvcd__d3 nsvcd__up_of(const nsvcd__crowd *crowd) {
-  const nsvcd__d3 none = {0, 0, 0};
-  return nsvcd__d3_unit(nsvcd__d3_scale(crowd->falls, -1), none);
-}
-
 // How fast a driven body takes a point along that is there now, metres a second; 0: it is not
 // driven.
 static nsvcd__d3 nsvcd__takes_along(const nsvcd__crowd *crowd, const nsvcd__resident *r,
                                     nsvcd__d3 point) {
   if (!r->is_driven) return nsvcd__d3_of(0, 0, 0);
   const nsvcd__dpose from = nsvcd__dpose_of(&r->given.pose);
-  const nsvcd__dpose to = nsvcd__dpose_of(&r->to);
-  const nsvcd__dtransform now = nsvcd__dtransform_of(&from);
-  const nsvcd__dtransform then = nsvcd__dtransform_of(&to);
-  const nsvcd__d3 own =
-      nsvcd__dmat3_apply_transpose(&now.rotation, nsvcd__d3_sub(point, now.position));
-  const nsvcd__d3 moved = nsvcd__d3_sub(nsvcd__d3_transform(&then, own), point);
+  const nsvcd__d3 moved = nsvcd__moved_along(&from, &r->to, point);
   return nsvcd__d3_over(moved, (double)crowd->seconds);
 }
 
 // The next body beneath a mover, as it was after its last slide, from contact *n on; or NULL.
 static const nsvcd__resident *nsvcd__next_beneath(const nsvcd__crowd *crowd,
                                                   const nsvcd_world_mover *m, size_t *n) {
-  const nsvcd__d3 up = nsvcd__up_of(crowd);
   while (*n < m->answer.contact_count && *n < NSVCD_WORLD_CONTACTS) {
     const nsvcd_world_contact *c = &m->answer.contacts[(*n)++];
     const nsvcd__resident *r = nsvcd__resident_of(crowd->world, c->body);
-    if (r && nsvcd__d3_dot(nsvcd__d3_load(c->contact.normal), up) > 0.5) return r;
+    if (r && nsvcd__d3_dot(nsvcd__d3_load(c->contact.normal), crowd->up) > 0.5) return r;
   }
   return NULL;
 }
@@ -205,7 +194,6 @@ static nsvcd__d3 nsvcd__mover_centre(const nsvcd__crowd *crowd, const nsvcd_worl
 // all, or those beneath are caught. Going up, each mover knows how fast that beneath it rises.
 static void nsvcd__find_rising(const nsvcd__crowd *crowd) {
   const nsvcd_world *world = crowd->world;
-  const nsvcd__d3 up = nsvcd__up_of(crowd);
   for (size_t k = 0; k < crowd->count; k++) {
     nsvcd_world_mover *m = &crowd->movers[world->turns[k].mover];
     const nsvcd__resident *r;
@@ -213,7 +201,8 @@ static void nsvcd__find_rising(const nsvcd__crowd *crowd) {
     int is_direct = 0;
     for (size_t n = 0; (r = nsvcd__next_beneath(crowd, m, &n)) != NULL;) {
       const nsvcd__d3 goes = nsvcd__takes_along(crowd, r, nsvcd__mover_centre(crowd, m));
-      const double lifts = r->is_driven ? nsvcd__d3_dot(goes, up) : fabs((double)r->rise);
+      const double lifts =
+          r->is_driven ? nsvcd__d3_dot(goes, crowd->up) : fabs((double)r->rise);
       is_direct |= r->is_driven && lifts > 0;
       rise = nsvcd__max(rise, lifts);
     }
@@ -253,10 +242,9 @@ static void nsvcd__pull_and_brake(const nsvcd__crowd *crowd, nsvcd_world_mover *
 // Has a mover go up at least as fast as what it stands on.
 static void nsvcd__raise(const nsvcd__crowd *crowd, const nsvcd__resident *r,
                          nsvcd_velocity *velocity) {
-  const nsvcd__d3 up = nsvcd__up_of(crowd);
   const nsvcd__d3 linear = nsvcd__d3_load(velocity->linear);
-  const double lacks = nsvcd__max((double)r->rise - nsvcd__d3_dot(linear, up), 0);
-  nsvcd__f3_store(nsvcd__f3_round(nsvcd__d3_fma(lacks, up, linear)), velocity->linear);
+  const double lacks = nsvcd__max((double)r->rise - nsvcd__d3_dot(linear, crowd->up), 0);
+  nsvcd__f3_store(nsvcd__f3_round(nsvcd__d3_fma(lacks, crowd->up, linear)), velocity->linear);
 }
 
 static nsvcd_result nsvcd__step_mover(const nsvcd__crowd *crowd, nsvcd_world_mover *m,

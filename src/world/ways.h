@@ -59,6 +59,17 @@ static nsvcd__d3 nsvcd__pivot_at(const nsvcd__slide *s) {
   return nsvcd__pivot_of(&s->pose, s->ask.shape.pivot);
 }
 
+// How far a point goes with a body, from one of its poses to another.
+static nsvcd__d3 nsvcd__moved_along(const nsvcd__dpose *from, const nsvcd_pose *to,
+                                    nsvcd__d3 point) {
+  const nsvcd__dpose end = nsvcd__dpose_of(to);
+  const nsvcd__dtransform now = nsvcd__dtransform_of(from);
+  const nsvcd__dtransform then = nsvcd__dtransform_of(&end);
+  const nsvcd__d3 own =
+      nsvcd__dmat3_apply_transpose(&now.rotation, nsvcd__d3_sub(point, now.position));
+  return nsvcd__d3_sub(nsvcd__d3_transform(&then, own), point);
+}
+
 // How fast a driven body moves a point that is there now, and goes with it, on average over what is
 // left of the frame.
 static nsvcd__d3 nsvcd__driven_speed(const nsvcd__slide *s, size_t id, nsvcd__d3 point) {
@@ -66,12 +77,7 @@ static nsvcd__d3 nsvcd__driven_speed(const nsvcd__slide *s, size_t id, nsvcd__d3
   if (!r->is_driven || !(s->left > 0)) return nsvcd__d3_of(0, 0, 0);
   const nsvcd__dpose at =
       nsvcd__dpose_between(&r->given.pose, &r->to, r->shape.pivot, 1 - s->left);
-  const nsvcd__dpose end = nsvcd__dpose_of(&r->to);
-  const nsvcd__dtransform now = nsvcd__dtransform_of(&at);
-  const nsvcd__dtransform then = nsvcd__dtransform_of(&end);
-  const nsvcd__d3 own =
-      nsvcd__dmat3_apply_transpose(&now.rotation, nsvcd__d3_sub(point, now.position));
-  const nsvcd__d3 moved = nsvcd__d3_sub(nsvcd__d3_transform(&then, own), point);
+  const nsvcd__d3 moved = nsvcd__moved_along(&at, &r->to, point);
   return nsvcd__d3_scale(moved, 1 / (s->left * s->seconds));
 }
 

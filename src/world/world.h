@@ -19,7 +19,8 @@ typedef struct nsvcd__resident {
   // when it came to where it is, on the world's clock
   uint64_t moved;
   uint32_t next_free;
-  // which of a step's movers it was last; and how fast what it stands on by way of others lifts it
+  // which of a step's movers it was last; and how fast a lift raises it, negative if it stands on
+  // that itself, and not by way of others
   uint32_t mover;
   float rise;
 } nsvcd__resident;
