@@ -117,7 +117,7 @@ static int show_patches(const nsvcd_mesh *mesh, const nsvcd_body *body, size_t w
                         int16_t *points, int8_t *normals) {
   nsvcd__arena arena = nsvcd__arena_of(NULL);
   nsvcd__patches patches;
-  if (nsvcd__patches_build(mesh, wanted, &arena, &patches)) return 0;
+  if (nsvcd__patches_build(mesh, wanted, 1, &arena, &patches)) return 0;
   size_t found = 0;
   for (size_t i = 0; i < body->patches; i++) {
     const nsvcd__sphere ball = nsvcd__sphere_of(nsvcd__body_patches(body), i);
