@@ -99,5 +99,5 @@ clean:  ## removes build/
 	rm -rf build
 
 # What else there is, each a page: packages, tests, checks, inputs at random, accuracy, benchmarks, training.
-include packages/packages.mk tests/tests.mk tests/fuzz/fuzz.mk tests/checks.mk
+include packages/packages.mk tests/tests.mk tests/fuzz/fuzz.mk tests/checks.mk formal/formal.mk
 include tests/bench/accuracy.mk tests/bench/bench.mk train/train.mk

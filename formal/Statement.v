@@ -1,0 +1,87 @@
+(* Statement.v - all that must be read to know what is proven: bodies that move, over the reals, and
+   `sound`, which says what an answer of a checker of certificates is worth. Main.v proves it of the
+   checker of Checker.v. How that reads bytes, builds trees and computes need not be known here. *)
+From Coq Require Import Reals List ZArith QArith Qreals.
+Local Open Scope R_scope.
+
+(* ---- vectors *)
+Record V := mkV { vx : R; vy : R; vz : R }.
+Definition dot a b := vx a * vx b + vy a * vy b + vz a * vz b.
+Definition vadd a b := mkV (vx a + vx b) (vy a + vy b) (vz a + vz b).
+Definition vsub a b := mkV (vx a - vx b) (vy a - vy b) (vz a - vz b).
+Definition vscale k a := mkV (k * vx a) (k * vy a) (k * vz a).
+Definition norm a := sqrt (dot a a).
+
+(* ---- quaternions x y z w, and the rotation of one of any length but 0: |q|^2 times it is `turned` *)
+Record quat := mkQ { qx : R; qy : R; qz : R; qw : R }.
+Definition qdot a b := qx a * qx b + qy a * qy b + qz a * qz b + qw a * qw b.
+Definition qcomb s a t b := mkQ (s * qx a + t * qx b) (s * qy a + t * qy b)
+                                (s * qz a + t * qz b) (s * qw a + t * qw b).
+Definition qscale s a := mkQ (s * qx a) (s * qy a) (s * qz a) (s * qw a).
+Definition turned q v := mkV
+  ((qdot q q - 2 * (qy q * qy q + qz q * qz q)) * vx v
+   + 2 * (qx q * qy q - qz q * qw q) * vy v + 2 * (qx q * qz q + qy q * qw q) * vz v)
+  (2 * (qx q * qy q + qz q * qw q) * vx v
+   + (qdot q q - 2 * (qx q * qx q + qz q * qz q)) * vy v + 2 * (qy q * qz q - qx q * qw q) * vz v)
+  (2 * (qx q * qz q - qy q * qw q) * vx v + 2 * (qy q * qz q + qx q * qw q) * vy v
+   + (qdot q q - 2 * (qx q * qx q + qy q * qy q)) * vz v).
+Definition rot q v := vscale (/ qdot q q) (turned q v).
+
+(* of unit quaternions: half the angle of the turn, and the rotation at a share u of the way *)
+Definition angle a b := acos (qdot a b).
+Definition slerp a b u :=
+  let h := angle a b in
+  if Req_EM_T (sin h) 0 then a
+  else qcomb (sin ((1 - u) * h) / sin h) a (sin (u * h) / sin h) b.
+Definition unitq q := qscale (/ sqrt (qdot q q)) q.
+Definition shorter a b := if Rlt_dec (qdot a b) 0 then qscale (-1) b else b.
+
+(* ---- a piece of a motion, between the times k0 < k1: the position linear, the rotation a slerp *)
+Record piece := mkPiece {
+  k0 : R; k1 : R; scale : R; p0 : V; p1 : V; q0 : quat; q1 : quat }.
+Definition share m t := (t - k0 m) / (k1 m - k0 m).
+Definition origin m t := let u := share m t in vadd (vscale (1 - u) (p0 m)) (vscale u (p1 m)).
+Definition place m t x := vadd (vscale (scale m) (rot (slerp (q0 m) (q1 m) (share m t)) x)) (origin m t).
+
+(* ---- triangles, and their points *)
+Record tri := mkTri { c0 : V; c1 : V; c2 : V }.
+Definition mix a b c T := vadd (vscale a (c0 T)) (vadd (vscale b (c1 T)) (vscale c (c2 T))).
+Definition of_tri x T := exists a b c, 0 <= a /\ 0 <= b /\ 0 <= c /\ a + b + c = 1 /\ x = mix a b c T.
+
+(* ---- a scene as a checker has it: exact numbers, corners in units of 1 / den *)
+Record zv := mkZ { zx : Z; zy : Z; zz : Z }.
+Record ztri := mkZT { za : zv; zb : zv; zc : zv }.
+Record pose := mkPose { px : Q; py : Q; pz : Q; ha : Q; hb : Q; hc : Q; hd : Q }.
+Record qpiece := mkQP { t_from : Q; t_to : Q; pose_from : pose; pose_to : pose }.
+Record body := mkBody { den : positive; tris : list ztri; size : Q; pieces : list qpiece }.
+Record scene := mkScene { body_a : body; body_b : body; clearance : Q }.
+
+(* ---- and what it means *)
+Definition pointR d z := mkV (IZR (zx z) / IZR (Zpos d)) (IZR (zy z) / IZR (Zpos d)) (IZR (zz z) / IZR (Zpos d)).
+Definition triR d T := mkTri (pointR d (za T)) (pointR d (zb T)) (pointR d (zc T)).
+Definition posR p := mkV (Q2R (px p)) (Q2R (py p)) (Q2R (pz p)).
+Definition quatR p := mkQ (Q2R (ha p)) (Q2R (hb p)) (Q2R (hc p)) (Q2R (hd p)).
+Definition pieceR s m := mkPiece (Q2R (t_from m)) (Q2R (t_to m)) (Q2R s)
+  (posR (pose_from m)) (posR (pose_to m)) (unitq (quatR (pose_from m)))
+  (unitq (shorter (quatR (pose_from m)) (quatR (pose_to m)))).
+
+(* x is a point of the body's triangles at the time t *)
+Definition at_time b t x := exists m T y, In m (pieces b) /\ Q2R (t_from m) <= t <= Q2R (t_to m) /\
+  In T (tris b) /\ of_tri y (triR (den b) T) /\ x = place (pieceR (size b) m) t y.
+
+(* FREE, of surfaces, in the words of nsvcd_verify.h: "at no time does a point of a's triangles come
+   within the clearance of one of b's" *)
+Definition never_meet s := forall t x y, 0 <= t <= 1 ->
+  at_time (body_a s) t x -> at_time (body_b s) t y -> Q2R (clearance s) < norm (vsub x y).
+
+(* at some time a plane has all of one body on one side and all of the other on the other *)
+Definition once_apart s := exists t n, 0 <= t <= 1 /\ forall x y,
+  at_time (body_a s) t x -> at_time (body_b s) t y -> 0 < dot n (vsub x y).
+
+(* at each time it is somewhere: so never_meet speaks of all times *)
+Definition covers b := forall t, 0 <= t <= 1 -> exists m, In m (pieces b) /\ Q2R (t_from m) <= t <= Q2R (t_to m).
+
+(* ---- THE STATEMENT. `accepts` answers Some apart where it accepts a certificate's bytes. *)
+Definition sound (accepts : scene -> list Z -> option bool) := forall s bytes apart,
+  accepts s bytes = Some apart ->
+  never_meet s /\ (apart = true -> once_apart s) /\ covers (body_a s) /\ covers (body_b s).

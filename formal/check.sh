@@ -1,0 +1,27 @@
+#!/bin/sh
+# make formal: proves all, looks at what the theorem assumes, makes build/referee and compares it with build/verify. Ends with
+# 1 if anything is not as it should be. Where a tool is not there, it says so and leaves that out.
+set -u
+out=build/formal
+mkdir -p $out
+fail() { echo "formal: $*"; exit 1; }
+
+echo 'From Coquelicot Require Import Coquelicot. From Interval Require Import Tactic.' >$out/tools.v
+coqc -q -noglob -w -all -o $out/tools.vo $out/tools.v 2>/dev/null ||
+  { echo "formal: coqc with coquelicot and interval: not tested"; exit 0; }
+! grep -nwE 'Admitted|admit|give_up|Axioms?|Parameters?|Conjecture|Unset' formal/*.v || fail "something is taken for granted"
+${MAKE:-make} --no-print-directory formal-proofs || fail "a proof fails"
+
+# Classical reals are built on these four axioms.
+for what in accepts_Z_sound near_free shaft_free; do
+  printf 'From Svcd Require Import Scenes.\nPrint Assumptions %s.\n' $what >$out/assumptions.v
+  coqc -q -noglob -w -all -R $out Svcd -o $out/assumptions.vo $out/assumptions.v |
+    sed -n 's/^\([A-Za-z_.]*\) *:.*/\1/p; s/^\([A-Za-z_.]*\.[A-Za-z_]*\)$/\1/p' | sed 's/.*\.//' | sort >$out/assumptions.txt
+  printf '%s\n' classic functional_extensionality_dep sig_forall_dec sig_not_dec |
+    cmp -s - $out/assumptions.txt || fail "$what assumes other things: $(cat $out/assumptions.txt)"
+done
+echo "formal: proven, from the four axioms of classical reals"
+
+ocamlfind query -qe zarith coq-core.kernel >/dev/null 2>&1 || { echo "formal: ocamlfind with zarith and coq-core: not tested"; exit 0; }
+${MAKE:-make} --no-print-directory build/referee build/verify build/svcd build/problems || fail "the referee is not made"
+formal/compare.sh
