@@ -1,0 +1,44 @@
+#!/bin/sh
+# Gives build/verify and build/referee the same certificates: of each set of problems, COUNT problems, and MUTANTS mutants of
+# each set's. They must say the same of each, but of what the referee does not cover. Ends with 1 if they do not.
+# Needs build/problems, build/svcd, build/verify and build/referee; run from the repository's root.
+set -u
+out=build/formal/sets
+mkdir -p $out
+sets=${SETS:-standard hollow inside cavity thin spin still tiny huge offset mixed far rest nested slivers soup one same}
+
+# compare NAME FILE FOLDER: columns 1 to 4 of verify's and the referee's lines. After a walk that both accept, verify may
+# find fault with the rays.
+compare() {
+  build/verify "$2" "$3" >$out/verify.txt
+  test $? -le 1 || { echo "formal: $1: verify fails"; exit 1; }
+  build/referee "$2" "$3" >$out/referee.txt
+  test $? -le 1 || { echo "formal: $1: the referee fails"; exit 1; }
+  paste $out/verify.txt $out/referee.txt | awk -F'\t' -v name="$1" '
+    { all++; seconds += $10 / 1e6 }
+    $7 == "accepted" { accepted++ }
+    $7 == "refused" { refused++ }
+    $7 == "uncovered" { uncovered++ }
+    $7 == "uncovered" && $8 ~ /rays follow/ { rays++ }
+    { same = $1 == $6 && ($7 == "uncovered" ? 1 : $2 == $7 && $3 == $8 && $4 == $9) }
+    $8 ~ /rays follow/ { same = $3 == "free" || $3 ~ /^a ray |^it ends early|^something follows/ }
+    !same { print "formal: " name ": " $0; bad++ }
+    END {
+      printf "%-18s %6d certificates: both accept %d, both refuse %d; not covered %d, of these %d with rays; %.1f s\n",
+        name, all, accepted, refused, uncovered, rays, seconds
+      exit bad > 0 || all == 0
+    }' || exit 1
+}
+
+for set in $sets; do
+  file=$out/$set.txt
+  build/problems --set $set --meshes procedural --count ${COUNT:-6} --pool 8 --seed 51 --out $file >/dev/null 2>&1
+  mkdir -p $out/$set
+  build/svcd check --repeat 1 --certificates $out/$set $file >/dev/null 2>&1
+  compare $set $file $out/$set
+  rm -rf $out/$set.mutants
+  python3 formal/mutants.py $file $out/$set ${MUTANTS:-100} $out/$set.mutants.txt $out/$set.mutants
+  test ! -s $out/$set.mutants.txt || ! grep -q '^problem' $out/$set.mutants.txt ||
+    compare "$set, mutants" $out/$set.mutants.txt $out/$set.mutants
+done
+echo "formal: verify and the referee agree"

@@ -1,0 +1,50 @@
+#!/usr/bin/env python3
+"""mutants.py PROBLEMS.txt FOLDER COUNT OUT.txt OUT_FOLDER - writes COUNT mutants of the FREE certificates of a problem file:
+bits flipped behind the header, or anywhere, the end cut off or lengthened, a stretch of bytes swapped for another's.
+OUT.txt must lie in the folder of PROBLEMS.txt, which its meshes are relative to."""
+import os
+import random
+import sys
+
+
+def main():
+  problems, folder, count, out, out_folder = sys.argv[1:6]
+  rng = random.Random(1)
+  head, blocks = [], []
+  for line in open(problems):
+    words = line.split()
+    if words and words[0] == 'problem':
+      blocks.append((words, []))
+    elif words and words[0] != 'mesh' and blocks:
+      blocks[-1][1].append(line)
+    else:
+      head.append(line)
+  free = []
+  for words, poses in blocks:
+    cert = open('%s/%s.cert' % (folder, words[1]), 'rb').read()
+    if cert[0] == 4:
+      free.append((words, poses, cert))
+  os.makedirs(out_folder, exist_ok=True)
+  with open(out, 'w') as text:
+    text.write(''.join(head))
+    for k in range(int(count) if free else 0):
+      words, poses, cert = free[k % len(free)]
+      bits, kind = bytearray(cert), rng.randrange(10)
+      if kind < 6:  # flips: mostly behind the header, of which a digest would tell
+        for _ in range(1 + kind % 3):
+          bit = rng.randrange(0 if kind == 5 else 40, 8 * len(bits)) if len(bits) > 5 else rng.randrange(8 * len(bits))
+          bits[bit // 8] ^= 0x80 >> bit % 8
+      elif kind < 8:
+        del bits[rng.randrange(len(bits)):]
+      elif kind < 9:
+        bits += bytes(rng.randrange(256) for _ in range(rng.randrange(1, 4)))
+      else:
+        other = rng.choice(free)[2]
+        at = rng.randrange(min(5, len(bits)), len(bits) + 1)
+        bits[at:] = other[at:]
+      name = 'm%d' % k
+      open('%s/%s.cert' % (out_folder, name), 'wb').write(bytes(bits))
+      text.write(' '.join(['problem', name] + words[2:]) + '\n' + ''.join(poses))
+
+
+main()
