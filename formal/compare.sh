@@ -1,11 +1,11 @@
 #!/bin/sh
-# Gives build/verify and build/referee the same certificates: of each set of problems, COUNT problems, and MUTANTS mutants of
+# Gives build/verify and build/referee the same certificates: of each set of problems, FORMAL_COUNT of them, and FORMAL_MUTANTS mutants of
 # each set's. They must say the same of each, but of what the referee does not cover. Ends with 1 if they do not.
 # Needs build/problems, build/svcd, build/verify and build/referee; run from the repository's root.
 set -u
 out=build/formal/sets
 mkdir -p $out
-sets=${SETS:-standard hollow inside cavity thin spin still tiny huge offset mixed far rest nested slivers soup one same}
+sets=${FORMAL_SETS:-standard hollow inside cavity thin spin still tiny huge offset mixed far rest nested slivers soup one same}
 
 # compare NAME FILE FOLDER: columns 1 to 4 of verify's and the referee's lines. After a walk that both accept, verify may
 # find fault with the rays.
@@ -32,12 +32,12 @@ compare() {
 
 for set in $sets; do
   file=$out/$set.txt
-  build/problems --set $set --meshes procedural --count ${COUNT:-6} --pool 8 --seed 51 --out $file >/dev/null 2>&1
+  build/problems --set $set --meshes procedural --count ${FORMAL_COUNT:-6} --pool 8 --seed 51 --out $file >/dev/null 2>&1
   mkdir -p $out/$set
   build/svcd check --repeat 1 --certificates $out/$set $file >/dev/null 2>&1
   compare $set $file $out/$set
   rm -rf $out/$set.mutants
-  python3 formal/mutants.py $file $out/$set ${MUTANTS:-100} $out/$set.mutants.txt $out/$set.mutants
+  python3 formal/mutants.py $file $out/$set ${FORMAL_MUTANTS:-100} $out/$set.mutants.txt $out/$set.mutants
   test ! -s $out/$set.mutants.txt || ! grep -q '^problem' $out/$set.mutants.txt ||
     compare "$set, mutants" $out/$set.mutants.txt $out/$set.mutants
 done
