@@ -73,7 +73,8 @@ typedef struct verify__visit {
 
 // ---- planes
 
-// The most of n.(s R x) over a node.
+// The most of n.(s R x) over a node. Where R is not finite no height of a corner is, so that it does
+// not matter that one after a NaN takes its place: of what is not finite nothing is parted.
 static inline double verify__most(const nsvcd_verify_mover *mover, const nsvcd_verify_node *node,
                                   const double *turn, const double *n, int exact) {
   const nsvcd_verify_mesh *m = mover->mesh;
