@@ -109,6 +109,14 @@ let fit scale poses =
   else if List.exists (List.exists (fun x -> not (Float.abs x <= 1e6))) poses then Some "a pose is out of range"
   else if not (List.for_all unit_length poses) then Some "a quaternion is not of unit length"
   else None
+(* Of two ways round that are as long to a rounding, the sum in double decides for verify, and the exact
+   one for the theorem: where these differ in sign, the motions do. *)
+let rec same_way = function
+  | (_ :: _ :: _ :: p) :: ((_ :: _ :: _ :: q) :: _ as rest) ->
+    let rounded = List.fold_left2 (fun sum x y -> sum +. x *. y) 0. p q in
+    let exact = List.fold_left2 (fun sum x y -> qplus sum (qmult (rational x) (rational y))) (rational 0.) p q in
+    (rounded < 0.) = (Big_int_Z.sign_big_int exact.qnum < 0) && same_way rest
+  | _ -> true
 let body mesh scale poses =
   let exact pose = match List.map rational pose with
     | [x; y; w; a; b; c; d] -> { px = x; py = y; pz = w; ha = a; hb = b; hc = c; hd0 = d } | _ -> assert false in
@@ -211,6 +219,7 @@ let () =
       let a = side mesh_a scale_a poses_a and b = side mesh_b scale_b poses_b in
       match fit a.scale a.poses, fit b.scale b.poses with
       | Some why, _ | None, Some why -> say id "refused" why 0 0.
+      | None, None when not (same_way a.poses && same_way b.poses) -> raise (Uncovered "a turn of 180 degrees to a rounding")
       | None, None -> check id a b
     with Uncovered why -> say id "uncovered" why 0 0. in
   let rec run = function
