@@ -928,18 +928,74 @@ Fixpoint number (i : Z) (l : list ztri) : list (Z * ztri) := match l with [] => 
 Lemma number_snd i l : map snd (number i l) = l.
 Proof. revert i. induction l; simpl; intros; f_equal; auto. Qed.
 Definition tree_of (b : body) := build 64 (den b) (size b) (number 0 (tris b)).
+Definition same_pose p q := Qeq_bool (px p) (px q) && Qeq_bool (py p) (py q) && Qeq_bool (pz p) (pz q) && same_turn p q.
 Fixpoint chained (t : Q) (l : list qpiece) : bool := match l with
   | [] => Qeq_bool t 1
-  | m :: l => Qeq_bool (t_from m) t && chained (t_to m) l end.
+  | m :: l => Qeq_bool (t_from m) t &&
+      match l with [] => true | m' :: _ => same_pose (pose_to m) (pose_from m') end && chained (t_to m) l end.
 Lemma chained_ok l : forall f t, chained f l = true -> Q2R f <= t <= 1 -> Q2R f < 1 ->
   exists m, In m l /\ Q2R (t_from m) <= t <= Q2R (t_to m).
 Proof.
   induction l as [|m l IH]; cbn [chained]; intros f t H T F.
   - apply Qeq_bool_iff, Qeq_eqR in H. rewrite Q2R_1 in H. lra.
-  - apply andb_true_iff in H as [E C]. apply Qeq_bool_iff, Qeq_eqR in E.
+  - rewrite !andb_true_iff in H. destruct H as [[E _] C]. apply Qeq_bool_iff, Qeq_eqR in E.
     destruct (Rle_dec t (Q2R (t_to m))) as [L|L].
     + exists m. split; [left; reflexivity|]. lra.
     + destruct (IH (t_to m) t C) as (p & I & P); [lra|lra|]. exists p. split; [right|]; auto.
+Qed.
+
+Lemma same_turn_R p q : same_turn p q = true -> quatR p = quatR q.
+Proof.
+  unfold same_turn. rewrite !andb_true_iff. intros (((A & B) & C) & D).
+  apply Qeq_bool_iff, Qeq_eqR in A, B, C, D. unfold quatR. f_equal; auto.
+Qed.
+Lemma same_pose_R p q : same_pose p q = true -> posR p = posR q /\ quatR p = quatR q.
+Proof.
+  unfold same_pose. rewrite !andb_true_iff. intros (((A & B) & C) & D). split; [|apply same_turn_R, D].
+  apply Qeq_bool_iff, Qeq_eqR in A, B, C. unfold posR. f_equal; auto.
+Qed.
+
+Lemma knots_agree s m m' x : sound_piece m = true -> sound_piece m' = true ->
+  same_pose (pose_to m) (pose_from m') = true -> Q2R (t_to m) = Q2R (t_from m') ->
+  place (pieceR s m) (Q2R (t_to m)) x = place (pieceR s m') (Q2R (t_to m)) x.
+Proof.
+  unfold sound_piece. rewrite !andb_true_iff. intros ((T & A) & B) ((T' & _) & _) P K.
+  apply same_pose_R in P as [P1 P2]. apply Qlt_bool_R in T, T', A, B. rewrite qdotQ_R, Q2R_0 in A, B. rewrite K.
+  assert (S1 : share (pieceR s m) (Q2R (t_from m')) = 1) by (unfold share; simpl; rewrite K; field; lra).
+  assert (S0 : share (pieceR s m') (Q2R (t_from m')) = 0) by (unfold share; simpl; field; lra).
+  unfold place, origin. rewrite S1, S0. cbn [scale q0 q1 p0 p1 pieceR].
+  rewrite slerp_0, slerp_1;
+    [|apply unitq_unit; auto|apply unitq_unit; rewrite shorter_norm; auto|apply shorter_dot; auto].
+  rewrite rot_shorter, <- P1, <- P2 by auto.
+  apply V_eq; unfold vadd, vscale; simpl; ring.
+Qed.
+
+(* all pieces of a chain begin no earlier than it does *)
+Lemma chained_after l : forall f, forallb sound_piece l = true -> chained f l = true ->
+  forall m, In m l -> Q2R f <= Q2R (t_from m).
+Proof.
+  induction l as [|m l IH]; cbn [chained forallb]; intros f S H p I; [destruct I|].
+  apply andb_true_iff in S as [S S'], H as [H C]. apply andb_true_iff in H as [E _]. apply Qeq_bool_iff, Qeq_eqR in E.
+  destruct I as [<-|I]; [lra|]. specialize (IH (t_to m) S' C p I).
+  unfold sound_piece in S. rewrite !andb_true_iff in S. destruct S as ((T & _) & _). apply Qlt_bool_R in T. lra.
+Qed.
+
+Lemma chained_one s l : forall f, forallb sound_piece l = true -> chained f l = true ->
+  forall m m' t x, In m l -> In m' l -> Q2R (t_from m) <= t <= Q2R (t_to m) -> Q2R (t_from m') <= t <= Q2R (t_to m') ->
+  place (pieceR s m) t x = place (pieceR s m') t x.
+Proof.
+  induction l as [|h l IH]; intros f S H m m' t x I I' T T'; [destruct I|].
+  cbn [chained forallb] in S, H. apply andb_true_iff in S as [S S'], H as [H C]. apply andb_true_iff in H as [_ N].
+  assert (Next : forall p, In p l -> Q2R (t_from h) <= t <= Q2R (t_to h) -> Q2R (t_from p) <= t <= Q2R (t_to p) ->
+    place (pieceR s h) t x = place (pieceR s p) t x).
+  { intros p Ip Th Tp. pose proof (chained_after l (t_to h) S' C p Ip) as L.
+    assert (E : t = Q2R (t_to h)) by lra. assert (K : Q2R (t_to h) = Q2R (t_from p)) by lra. subst t.
+    destruct l as [|n l]; [destruct Ip|]. cbn [chained forallb] in S', C.
+    apply andb_true_iff in S' as [Sn Sl], C as [C Cn]. apply andb_true_iff in C as [En _]. apply Qeq_bool_iff, Qeq_eqR in En.
+    destruct Ip as [<-|Ip]; [apply knots_agree; auto|exfalso].
+    pose proof (chained_after l (t_to n) Sl Cn p Ip).
+    unfold sound_piece in Sn. rewrite !andb_true_iff in Sn. destruct Sn as ((Q & _) & _). apply Qlt_bool_R in Q. lra. }
+  destruct I as [<-|I], I' as [<-|I']; auto; [symmetry; auto|]. eapply IH; eauto.
 Qed.
 Definition sound_body b := Qle_bool 0 (size b) && forallb sound_piece (pieces b) && chained 0 (pieces b).
 
@@ -1016,10 +1072,17 @@ Proof.
   split; intros t T; [apply (chained_ok _ 0 t Ca)|apply (chained_ok _ 0 t Cb)]; rewrite Q2R_0; lra.
 Qed.
 
+Lemma accepts_one s bytes ap : accepts s bytes = Some ap -> one_place (body_a s) /\ one_place (body_b s).
+Proof.
+  intros H. apply accepts_walk in H as (A & B & _).
+  unfold sound_body in A, B. rewrite !andb_true_iff in A, B. destruct A as ((_ & Ma) & Ca), B as ((_ & Mb) & Cb).
+  split; intros m m' t x; eapply chained_one; eauto.
+Qed.
+
 Theorem accepts_sound : sound accepts.
 Proof.
-  intros s bytes ap H. split; [|split]; eauto using accepts_never_meet, accepts_covers.
-  intros ->. eapply accepts_apart, H.
+  intros s bytes ap H. destruct (accepts_covers s bytes ap H), (accepts_one s bytes ap H).
+  split; [eapply accepts_never_meet, H|split; [intros ->; eapply accepts_apart, H|split; split; auto]].
 Qed.
 End Prec.
 End Make.

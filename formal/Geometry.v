@@ -542,6 +542,48 @@ Proof.
   replace (qdot a (qscale (-1) b)) with (- qdot a b) by (unfold qdot, qscale; simpl; ring). lra.
 Qed.
 
+(* ---- a slerp is where it ought to be at both ends, so that pieces that share a pose agree at the knot *)
+Lemma quat_eq a b : qx a = qx b -> qy a = qy b -> qz a = qz b -> qw a = qw b -> a = b.
+Proof. destruct a, b; simpl; intros; subst; reflexivity. Qed.
+
+Lemma slerp_0 a b : slerp a b 0 = a.
+Proof.
+  unfold slerp. destruct (Req_EM_T (sin (angle a b)) 0) as [Z|Z]; auto.
+  replace ((1 - 0) * angle a b) with (angle a b) by ring. rewrite Rmult_0_l, sin_0.
+  apply quat_eq; unfold qcomb; simpl; field; auto.
+Qed.
+
+Lemma slerp_1 a b : qdot a a = 1 -> qdot b b = 1 -> 0 <= qdot a b -> slerp a b 1 = b.
+Proof.
+  intros A B D. pose proof (angle_range a b A B D) as [L U].
+  unfold slerp. destruct (Req_EM_T (sin (angle a b)) 0) as [Z|Z].
+  - assert (H : angle a b = 0).
+    { destruct L as [L|]; auto. pose proof (sin_gt_0 _ L). pose proof PI_RGT_0. lra. }
+    assert (E : qdot a b = 1).
+    { rewrite <- cos_0, <- H. symmetry. apply cos_acos, unit_dot; auto. }
+    assert (N : qdot (qcomb 1 a (-1) b) (qcomb 1 a (-1) b) = 0).
+    { replace (qdot _ _) with (qdot a a + qdot b b - 2 * qdot a b)
+        by (unfold qdot, qcomb; simpl; ring). lra. }
+    unfold qdot, qcomb in N; simpl in N.
+    pose proof (Rle_0_sqr (1 * qx a + -1 * qx b)) as N1. pose proof (Rle_0_sqr (1 * qy a + -1 * qy b)) as N2.
+    pose proof (Rle_0_sqr (1 * qz a + -1 * qz b)) as N3. pose proof (Rle_0_sqr (1 * qw a + -1 * qw b)) as N4.
+    assert (forall r, r * r = 0 -> r = 0) as S by (intros r; apply Rsqr_0_uniq). unfold Rsqr in *.
+    apply quat_eq; [assert (X := S (1 * qx a + -1 * qx b))|assert (X := S (1 * qy a + -1 * qy b))|
+      assert (X := S (1 * qz a + -1 * qz b))|assert (X := S (1 * qw a + -1 * qw b))]; lra.
+  - replace ((1 - 1) * angle a b) with 0 by ring. rewrite Rmult_1_l, sin_0.
+    apply quat_eq; unfold qcomb; simpl; field; auto.
+Qed.
+
+Lemma rot_shorter a b v : 0 < qdot b b -> rot (unitq (shorter a b)) v = rot (unitq b) v.
+Proof.
+  intros P. unfold shorter. destruct Rlt_dec; auto.
+  replace (unitq (qscale (-1) b)) with (qscale (-1) (unitq b)).
+  - apply rot_scale; [lra|]. rewrite unitq_unit; auto; lra.
+  - unfold unitq. replace (qdot (qscale (-1) b) (qscale (-1) b)) with (qdot b b)
+      by (unfold qdot, qscale; simpl; ring).
+    apply quat_eq; unfold qscale; simpl; ring.
+Qed.
+
 (* ---- a height along a normal, by the rows of the rotation *)
 Definition row0 q := vscale (/ qdot q q) (mkV (qdot q q - 2 * (qy q * qy q + qz q * qz q))
   (2 * (qx q * qy q - qz q * qw q)) (2 * (qx q * qz q + qy q * qw q))).

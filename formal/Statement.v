@@ -78,10 +78,14 @@ Definition never_meet s := forall t x y, 0 <= t <= 1 ->
 Definition once_apart s := exists t n, 0 <= t <= 1 /\ forall x y,
   at_time (body_a s) t x -> at_time (body_b s) t y -> 0 < dot n (vsub x y).
 
-(* at each time it is somewhere: so never_meet speaks of all times *)
+(* a body is at one place at each time: so never_meet speaks of all times, and of one motion *)
 Definition covers b := forall t, 0 <= t <= 1 -> exists m, In m (pieces b) /\ Q2R (t_from m) <= t <= Q2R (t_to m).
+Definition one_place b := forall m m' t x, In m (pieces b) -> In m' (pieces b) ->
+  Q2R (t_from m) <= t <= Q2R (t_to m) -> Q2R (t_from m') <= t <= Q2R (t_to m') ->
+  place (pieceR (size b) m) t x = place (pieceR (size b) m') t x.
+Definition moves b := covers b /\ one_place b.
 
 (* ---- THE STATEMENT. `accepts` answers Some apart where it accepts a certificate's bytes. *)
 Definition sound (accepts : scene -> list Z -> option bool) := forall s bytes apart,
   accepts s bytes = Some apart ->
-  never_meet s /\ (apart = true -> once_apart s) /\ covers (body_a s) /\ covers (body_b s).
+  never_meet s /\ (apart = true -> once_apart s) /\ moves (body_a s) /\ moves (body_b s).
