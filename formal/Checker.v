@@ -111,12 +111,6 @@ Proof.
   intros A B. pose proof (I.div_correct prec i j (Xreal x) (Xreal y) A B) as H. simpl in H.
   unfold Xdiv' in H. destruct (is_zero y); [apply nan_in|]; exact H.
 Qed.
-(* if the divisor is 0 there is nothing that is not in it *)
-Lemma in_div0 i j x : inI i x -> inI j 0 -> forall r, inI (I.div prec i j) r.
-Proof.
-  intros A B. pose proof (I.div_correct prec i j (Xreal x) (Xreal 0) A B) as H. simpl in H.
-  unfold Xdiv' in H. rewrite is_zero_0 in H. apply nan_in, H.
-Qed.
 Lemma in_sqrt i x : inI i x -> inI (I.sqrt prec i) (sqrt x).
 Proof.
   intros A. pose proof (I.sqrt_correct prec i (Xreal x) A) as H. simpl in H.
@@ -440,6 +434,11 @@ Proof.
   - destruct Body as (X & Y & Z). unfold dot. auto 10 with iv.
 Qed.
 Definition same_turn a b := Qeq_bool (ha a) (ha b) && Qeq_bool (hb a) (hb b) && Qeq_bool (hc a) (hc b) && Qeq_bool (hd a) (hd b).
+Lemma same_turn_R p q : same_turn p q = true -> quatR p = quatR q.
+Proof.
+  unfold same_turn. rewrite !andb_true_iff. intros (((A & B) & C) & D).
+  apply Qeq_bool_iff, Qeq_eqR in A, B, C, D. unfold quatR. f_equal; auto.
+Qed.
 Definition ipos p := mkIV (iQ (px p)) (iQ (py p)) (iQ (pz p)).
 Definition two := I.fromZ prec 2.
 Definition minus_one := I.fromZ prec (-1).
@@ -492,8 +491,6 @@ Definition inPose ip m t := exists R0 R1 R2, inV (r0 ip) R0 /\ inV (r1 ip) R1 /\
   forall x, place m t x = vadd (mkV (dot R0 x) (dot R1 x) (dot R2 x)) (origin m t).
 
 Definition nai3 := mkIV I.nai I.nai I.nai.
-Lemma in_nai3 v : inV nai3 v.
-Proof. repeat split; apply in_nai. Qed.
 
 Definition i2mul a b := I.mul prec two (I.add prec a b).
 Definition i2sub a b := I.mul prec two (I.sub prec a b).
@@ -565,10 +562,7 @@ Lemma rests_R s m u : sound_piece m = true -> Qle_bool 0 s = true -> rests (make
   slerp (q0 (pieceR s m)) (q1 (pieceR s m)) u = q0 (pieceR s m).
 Proof.
   intros M S E. destruct (sound_R s m S M) as ((_ & _ & A & _) & _ & P). simpl in *.
-  unfold same_turn in E. rewrite !andb_true_iff in E. destruct E as (((E1 & E2) & E3) & E4).
-  apply Qeq_bool_iff, Qeq_eqR in E1, E2, E3, E4.
-  assert (E : quatR (pose_to m) = quatR (pose_from m)) by (unfold quatR; f_equal; auto).
-  rewrite E. assert (T : shorter (quatR (pose_from m)) (quatR (pose_from m)) = quatR (pose_from m)).
+  apply same_turn_R in E. rewrite <- E. assert (T : shorter (quatR (pose_from m)) (quatR (pose_from m)) = quatR (pose_from m)).
   { unfold shorter. destruct Rlt_dec; auto. lra. }
   rewrite T. unfold slerp, angle. rewrite A, acos_1, sin_0. destruct (Req_EM_T 0 0); [auto|contradiction].
 Qed.
@@ -944,11 +938,6 @@ Proof.
     + destruct (IH (t_to m) t C) as (p & I & P); [lra|lra|]. exists p. split; [right|]; auto.
 Qed.
 
-Lemma same_turn_R p q : same_turn p q = true -> quatR p = quatR q.
-Proof.
-  unfold same_turn. rewrite !andb_true_iff. intros (((A & B) & C) & D).
-  apply Qeq_bool_iff, Qeq_eqR in A, B, C, D. unfold quatR. f_equal; auto.
-Qed.
 Lemma same_pose_R p q : same_pose p q = true -> posR p = posR q /\ quatR p = quatR q.
 Proof.
   unfold same_pose. rewrite !andb_true_iff. intros (((A & B) & C) & D). split; [|apply same_turn_R, D].

@@ -8,13 +8,15 @@ mkdir -p $out
 sets=${FORMAL_SETS:-standard hollow inside cavity thin spin still tiny huge offset mixed far rest nested slivers soup one same}
 
 # compare NAME FILE FOLDER: columns 1 to 4 of verify's and the referee's lines. After a walk that both accept, verify may
-# find fault with the rays.
+# find fault with the rays. And verify asks for a margin, 1e-10 of all lengths, where the referee computes with intervals: it may
+# refuse a plane that the referee accepts, which is told and must be rare; never the other way round.
 compare() {
   build/verify "$2" "$3" >$out/verify.txt
   test $? -le 1 || { echo "formal: $1: verify fails"; exit 1; }
   build/referee "$2" "$3" >$out/referee.txt
   test $? -le 1 || { echo "formal: $1: the referee fails"; exit 1; }
   paste $out/verify.txt $out/referee.txt | awk -F'\t' -v name="$1" '
+    function byte(reason) { sub(/.* /, "", reason); return reason + 0 }
     { all++; seconds += $10 / 1e6 }
     $7 == "accepted" { accepted++ }
     $7 == "refused" { refused++ }
@@ -22,11 +24,12 @@ compare() {
     $7 == "uncovered" && $8 ~ /rays follow/ { rays++ }
     { same = $1 == $6 && ($7 == "uncovered" ? 1 : $2 == $7 && $3 == $8 && $4 == $9) }
     $8 ~ /rays follow/ { same = $3 == "free" || $3 ~ /^a ray |^it ends early|^something follows/ }
+    !same && $3 ~ /^a plane/ && $2 == "refused" && ($7 != "refused" || byte($3) < byte($8)) { margin++; same = 1 }
     !same { print "formal: " name ": " $0; bad++ }
     END {
-      printf "%-18s %6d certificates: both accept %d, both refuse %d; not covered %d, of these %d with rays; %.1f s\n",
-        name, all, accepted, refused, uncovered, rays, seconds
-      exit bad > 0 || all == 0
+      printf "%-18s %6d certificates: both accept %d, both refuse %d; not covered %d, of these %d with rays; margin %d; %.1f s\n",
+        name, all, accepted, refused, uncovered, rays, margin, seconds
+      exit bad > 0 || all == 0 || margin > 1 + all / 100
     }' || exit 1
 }
 

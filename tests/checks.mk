@@ -3,7 +3,7 @@
 # What a change must pass beside `make test`, within 25 minutes on two cores; and what a release must: CONTRIBUTING.md says
 # what each catches. Programs that several of them use are made first, so that no two make the same file at once.
 CHECKS = text rooms header examples newcomer tools processor fast-math levels exact extremes motions sanitizers fuzz python trainer benches
-RELEASE = packages gradient tiles many 32 options robots rest one-path problems threads cross mingw firmware web sanitizers-all mutants
+RELEASE = packages formal gradient tiles many 32 options robots rest one-path problems threads cross mingw firmware web sanitizers-all mutants
 CHECKED = build/svcd build/verify $(DEMOS) build/make_assets build/problems build/check_motions build/check_rest
 check:  ## what else a change must pass; the last line is `N passed, N failed, N skipped`; ONLY="text rooms"
 	@$(if $(filter 1,$(words $(ONLY))),,$(MAKE) --no-print-directory -j$(CORES) $(CHECKED))
@@ -43,6 +43,8 @@ check-packages:  # installed, found by pkg-config and CMake, as one file, in a p
 	+CC="$(CC)" tests/packages.sh
 check-problems: build/problems build/svcd build/verify  # every set that the generator can make
 	tests/bench/problems.sh
+
+check-formal: formal  # the certificate's theorem, in Coq; its checker and build/verify say the same
 
 # The gradient, with each of these switches.
 GRADIENT_SWITCHES = SIMD FLOAT INT8 BASE SMALL,BASE
