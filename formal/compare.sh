@@ -40,7 +40,7 @@ for set in $sets; do
   build/svcd check --repeat 1 --certificates $out/$set $file >/dev/null 2>&1
   compare $set $file $out/$set
   rm -rf $out/$set.mutants
-  python3 formal/mutants.py $file $out/$set ${FORMAL_MUTANTS:-100} $out/$set.mutants.txt $out/$set.mutants
+  python3 formal/mutants.py $file $out/$set ${FORMAL_MUTANTS:-60} $out/$set.mutants.txt $out/$set.mutants
   test ! -s $out/$set.mutants.txt || ! grep -q '^problem' $out/$set.mutants.txt ||
     compare "$set, mutants" $out/$set.mutants.txt $out/$set.mutants
 done
