@@ -13,8 +13,7 @@ cd "$(dirname "$0")/.." || exit 1
 work=${WORK:-build/mutants}
 mkdir -p $work/tests/bench $work/examples/scenery $work/examples/verify
 cp weights.h $work/
-cp tests/test_proof.c tests/test_level.c tests/test_asks.c tests/test_long.c tests/test_exact.c tests/test_floor.c tests/test_solids.c tests/test_round.c tests/test_robot.c tests/test_looks.c tests/test_shapes.c tests/test_contacts.c tests/test_world.c tests/test_slide.c tests/test_route_looks.c tests/test_many_joints.c tests/test_postures.c tests/test_reach.c tests/test_ranges.c tests/test_allowances.c tests/test_mimics.c tests/test_merge.c tests/test_cones.c tests/test_certificate.c tests/test_checker.c tests/test_fits.c tests/*.h $work/tests/
-cp tests/test_proof.c tests/test_level.c tests/test_asks.c tests/test_long.c tests/test_exact.c tests/test_floor.c tests/test_solids.c tests/test_round.c tests/test_robot.c tests/test_looks.c tests/test_contacts.c tests/test_world.c tests/test_slide.c tests/test_step.c tests/test_route_looks.c tests/test_many_joints.c tests/test_postures.c tests/test_reach.c tests/test_ranges.c tests/test_allowances.c tests/test_mimics.c tests/test_merge.c tests/test_cones.c tests/test_certificate.c tests/test_checker.c tests/test_fits.c tests/*.h $work/tests/
+cp tests/test_proof.c tests/test_level.c tests/test_asks.c tests/test_long.c tests/test_exact.c tests/test_floor.c tests/test_solids.c tests/test_round.c tests/test_robot.c tests/test_looks.c tests/test_shapes.c tests/test_contacts.c tests/test_world.c tests/test_slide.c tests/test_step.c tests/test_route_looks.c tests/test_many_joints.c tests/test_postures.c tests/test_reach.c tests/test_ranges.c tests/test_allowances.c tests/test_mimics.c tests/test_merge.c tests/test_cones.c tests/test_certificate.c tests/test_checker.c tests/test_claims.c tests/test_fits.c tests/*.h $work/tests/
 cp tests/bench/*.h $work/tests/bench/
 cp examples/scenery/*.h $work/examples/scenery/
 cp examples/verify/verify.c $work/examples/verify/
@@ -435,6 +434,10 @@ checker: two bases|if (!why \&\& (a->clock != b->clock \|\| a->base != b->base))
 checker: deviations that nobody wrote|memset(at, 0, sizeof *at);|
 checker: a normal of 0|if (!(gap > least \&\& last > least \&\& gap < VERIFY__BEYOND)) return 0;|if (!(gap >= least \&\& last >= least \&\& gap < VERIFY__BEYOND)) return 0;
 checker: corners that there are not|\|\| of->mesh->part[out->a] == NSVCD_VERIFY_NONE)|)
+claims: of any clearance|verify__tell(\&sha, \&clearance, 1, 4);|
+claims: of joints anywhere|verify__tell(sha, joint->origin, 7, 4);|
+claims: of poses at any time|if (timed) verify__tell(sha, p->times, p->count, 4);|
+claims: of a mesh without its triangles|verify__tell(\&sha, m->indices, 3 * m->triangles, 4);|
 contacts: inner edges are sides|    if (same_moving \&\& nsvcd__goes_on(at_it.pair.fixed, points->on_b, normal, same)) return 1;|
 contacts: edges of the moving body are sides|    if (same_fixed \&\& nsvcd__goes_on(at_it.posed, points->on_a, back, same)) return 1;|
 contacts: ghosts among supports|if ((number \& 2) \&\& nsvcd__goes_on_beside(|if (0 \&\& nsvcd__goes_on_beside(
@@ -631,6 +634,7 @@ while IFS= read -r line; do
     cones:*) file=test_cones.c ;;
     verify:*) file=test_certificate.c ;;
     checker:*) file=test_checker.c ;;
+    claims:*) file=test_claims.c ;;
     fits:*) file=test_fits.c ;;
     plans:*) file=forge.py ;;
   esac

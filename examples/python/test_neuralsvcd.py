@@ -4,6 +4,7 @@ from __future__ import annotations
 import copy
 import functools
 import gc
+import hashlib
 import io
 import os
 import pickle
@@ -1536,6 +1537,25 @@ class Certificates(unittest.TestCase):
         self.assertEqual((made.verdict == "free", made.inside), (bool(report), report.kind == "inside"))
         self.assertEqual(report.time, made.time)
         return made, report
+
+    def test_claim(self) -> None:
+        """By hashlib, from the bytes that nsvcd_verify_claim.h describes."""
+        def mesh_of(name: str) -> bytes:
+            vertices, triangles = self.meshes[name]
+            return hashlib.sha256(b"nsvcd mesh 1" + struct.pack("<II", len(vertices), len(triangles)) +
+                                  np.asarray(vertices, "<f4").tobytes() + np.asarray(triangles, "<u4").tobytes()).digest()
+        turning = np.array([[0, 0, 1, 0, 0, 0, 1], [0, 0, 1, 0, 0, 0.6, 0.8], [0, 0.5, 1, 0, 0, 0, 1]])
+        expected = hashlib.sha256(
+            b"nsvcd claim 1" + struct.pack("<f", 0.01) +
+            mesh_of("mug") + struct.pack("<fBIB", 2, 1, 3, 1) + turning.astype("<f4").tobytes() +
+            struct.pack("<fff", 0, 0.25, 1) +
+            mesh_of("dish_rack") + struct.pack("<fBIB7f", 1, 1, 1, 0, 0, 0, 0, 0, 0, 0, 1)).digest()
+        scene = self.checked["mug"], self.checked["dish_rack"], turning
+        named = {"times_a": [0, 0.25, 1], "scale_a": 2, "clearance": 0.01}
+        self.assertEqual(nsvcd_verify.claim(*scene, **named), expected)
+        self.assertNotEqual(nsvcd_verify.claim(*scene, **{**named, "clearance": 0}), expected)
+        with self.assertRaises(ValueError):
+            nsvcd_verify.claim(*scene, times_a=[0, 1])
 
     def test_kinds(self) -> None:
         made, report = self.both("mug", "dish_rack", HIGH)
