@@ -26,7 +26,7 @@ nsvcd_result nsvcd_encode(const nsvcd_mesh *, const nsvcd_encode_options *, cons
                           void *, size_t, const nsvcd_body **);
 void nsvcd_body_free(const nsvcd_body *, const nsvcd_allocator *);
 nsvcd_result nsvcd_body_load(const void *, size_t, const nsvcd_body **);
-nsvcd_result nsvcd_body_scale(const nsvcd_body *, const float *, void *, size_t,
+nsvcd_result nsvcd_body_scale(const nsvcd_body *, const float[3], void *, size_t,
                               const nsvcd_body **);
 nsvcd_body_facts nsvcd_body_describe(const nsvcd_body *);
 int nsvcd_body_patch(const nsvcd_body *, uint32_t, float[3], float *);

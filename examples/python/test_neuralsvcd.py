@@ -417,7 +417,7 @@ class Batches(unittest.TestCase):
         self.paths[50, 0, 6] = 2
         error = raised(nsvcd.sweep_batch, MUG, RACK, self.paths)
         self.assertEqual((error.code, error.index), (Code.QUATERNION, 37))
-        self.assertIn("motion 37", str(error))
+        self.assertIn("index 37", str(error))
         same = self.paths[:9]
         self.assertEqual(raised(nsvcd.sweep_batch, MUG, MUG, same, same).code, Code.SAME)
         error = raised(nsvcd.sweep_batch, [MUG, RACK, MUG], MUG, scale_a=[2, 1, 1])
