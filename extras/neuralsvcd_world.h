@@ -210,7 +210,7 @@ typedef struct nsvcd_slide_options {
   // coefficients, whatever it meets. It bounces off what it hits faster than 0.5 metres a second
   float friction, restitution;
   // unit, of a character; (0, 0, 0): none. With it, it rides on what it stands on, and keeps no
-  // speed upwards from walking up something: only a jump takes it off the ground
+  // speed upwards from walking up something: one that it is given is a jump
   float up[3];
   // metres: the highest step that it climbs; and the least cosine between up and the normal of a
   // ground that it stands on, default 0.7
@@ -2268,6 +2268,8 @@ typedef struct nsvcd__slide {
   nsvcd__d3 up;
   double slope;
   int is_on_edge;
+  // it was given a speed upwards
+  int jumps;
   // the speed of what it rides on; and the speed besides its own with which it leaves what is near
   nsvcd__d3 ridden, leaves;
   // what its last way met first; or nobody
@@ -2563,17 +2565,17 @@ static void nsvcd__step_down(nsvcd__slide *s) {
 }
 
 // Whoever stood, and did not jump, does not fly off what it walked up: it keeps no speed upwards.
-static void nsvcd__stop_climbing(nsvcd__slide *s, const nsvcd_velocity *given) {
+static void nsvcd__stop_climbing(nsvcd__slide *s) {
   const nsvcd__d3 own = nsvcd__d3_sub(s->thing.linear, s->ridden);
   const double up = nsvcd__max(nsvcd__d3_dot(own, s->up), 0);
-  if (nsvcd__d3_dot(nsvcd__d3_load(given->linear), s->up) > 0) return;
+  if (s->jumps) return;
   s->thing.linear = nsvcd__d3_fma(-up, s->up, s->thing.linear);
 }
 
 // Is there something too steep to stand on in the way of whoever stands, or is on an edge?
 static int nsvcd__is_before_step(const nsvcd__slide *s) {
   const nsvcd__d3 walks = nsvcd__flat_part(s, nsvcd__d3_sub(s->thing.linear, s->ridden));
-  if (!(s->given->step > 0)) return 0;
+  if (!(s->given->step > 0) || s->jumps) return 0;
   for (size_t k = s->kept; k < s->contact_count; k++) {
     const nsvcd__d3 n = s->holds[k].normal;
     const double rise = nsvcd__d3_dot(n, s->up);
@@ -2650,6 +2652,7 @@ static nsvcd_result nsvcd__slide_begin(const nsvcd_world *world, size_t id,
   s->seconds = (double)seconds;
   s->left = s->pace = 1;
   s->up = nsvcd__d3_load(given->up);
+  s->jumps = nsvcd__d3_dot(nsvcd__d3_load(velocity->linear), s->up) > 0;
   s->slope = given->slope > 0 ? (double)given->slope : NSVCD__USUAL_SLOPE;
   s->ask.question.clearance = (float)s->clearance;
   s->ask.question.to = (float)(NSVCD__STOPS_WITHIN * s->margin);
@@ -2779,7 +2782,7 @@ NSVCDDEF nsvcd_result nsvcd_world_slide(nsvcd_world *world, size_t id,
     s.left = left;
     if (free_until < 1) out.caught = s.met;
   }
-  if (stood) nsvcd__stop_climbing(&s, &out.given);
+  if (stood) nsvcd__stop_climbing(&s);
   const double rises = nsvcd__d3_dot(nsvcd__d3_sub(s.thing.linear, s.ridden), s.up);
   s.lost = s.left;
   if (nsvcd__d3_dot(s.up, s.up) > 0 && !s.ask.result && !out.rests) {

@@ -574,8 +574,9 @@ slide: no edge is one of a step|return gone >= 1 \&\& s->ground;|return 0;
 slide: edges of what is too high|return gone >= 1 \&\& s->ground;|return s->ground != NULL;
 slide: edges of what is too steep|return gone >= 1 \&\& s->ground;|return gone >= 1;
 slide: edges stop|h->normal = s->up;|(void)0;
-slide: flies off kerbs|if (stood) nsvcd__stop_climbing(\&s, \&out.given);|
-slide: jumps are eaten|if (nsvcd__d3_dot(nsvcd__d3_load(given->linear), s->up) > 0) return;|
+slide: flies off kerbs|if (stood) nsvcd__stop_climbing(\&s);|
+slide: jumps are eaten|if (s->jumps) return;|
+slide: kerbs eat jumps|if (!(s->given->step > 0) \|\| s->jumps) return 0;|if (!(s->given->step > 0)) return 0;
 slide: edges at rest on trains|nsvcd__climb(s);\n    nsvcd__ride(s);|nsvcd__climb(s);
 step: who rises waits|if ((world->residents[m->id].rise > 0) != goes_up) continue;|if (goes_up) continue;
 step: who rises is not raised|if (r->rise > 0) nsvcd__raise(|if (0) nsvcd__raise(

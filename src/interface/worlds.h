@@ -161,7 +161,7 @@ typedef struct nsvcd_slide_options {
   // coefficients, whatever it meets. It bounces off what it hits faster than 0.5 metres a second
   float friction, restitution;
   // unit, of a character; (0, 0, 0): none. With it, it rides on what it stands on, and keeps no
-  // speed upwards from walking up something: only a jump takes it off the ground
+  // speed upwards from walking up something: one that it is given is a jump
   float up[3];
   // metres: the highest step that it climbs; and the least cosine between up and the normal of a
   // ground that it stands on, default 0.7

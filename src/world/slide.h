@@ -65,6 +65,7 @@ static nsvcd_result nsvcd__slide_begin(const nsvcd_world *world, size_t id,
   s->seconds = (double)seconds;
   s->left = s->pace = 1;
   s->up = nsvcd__d3_load(given->up);
+  s->jumps = nsvcd__d3_dot(nsvcd__d3_load(velocity->linear), s->up) > 0;
   s->slope = given->slope > 0 ? (double)given->slope : NSVCD__USUAL_SLOPE;
   s->ask.question.clearance = (float)s->clearance;
   s->ask.question.to = (float)(NSVCD__STOPS_WITHIN * s->margin);
@@ -194,7 +195,7 @@ NSVCDDEF nsvcd_result nsvcd_world_slide(nsvcd_world *world, size_t id,
     s.left = left;
     if (free_until < 1) out.caught = s.met;
   }
-  if (stood) nsvcd__stop_climbing(&s, &out.given);
+  if (stood) nsvcd__stop_climbing(&s);
   const double rises = nsvcd__d3_dot(nsvcd__d3_sub(s.thing.linear, s.ridden), s.up);
   s.lost = s.left;
   if (nsvcd__d3_dot(s.up, s.up) > 0 && !s.ask.result && !out.rests) {

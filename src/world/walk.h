@@ -105,17 +105,17 @@ static void nsvcd__step_down(nsvcd__slide *s) {
 }
 
 // Whoever stood, and did not jump, does not fly off what it walked up: it keeps no speed upwards.
-static void nsvcd__stop_climbing(nsvcd__slide *s, const nsvcd_velocity *given) {
+static void nsvcd__stop_climbing(nsvcd__slide *s) {
   const nsvcd__d3 own = nsvcd__d3_sub(s->thing.linear, s->ridden);
   const double up = nsvcd__max(nsvcd__d3_dot(own, s->up), 0);
-  if (nsvcd__d3_dot(nsvcd__d3_load(given->linear), s->up) > 0) return;
+  if (s->jumps) return;
   s->thing.linear = nsvcd__d3_fma(-up, s->up, s->thing.linear);
 }
 
 // Is there something too steep to stand on in the way of whoever stands, or is on an edge?
 static int nsvcd__is_before_step(const nsvcd__slide *s) {
   const nsvcd__d3 walks = nsvcd__flat_part(s, nsvcd__d3_sub(s->thing.linear, s->ridden));
-  if (!(s->given->step > 0)) return 0;
+  if (!(s->given->step > 0) || s->jumps) return 0;
   for (size_t k = s->kept; k < s->contact_count; k++) {
     const nsvcd__d3 n = s->holds[k].normal;
     const double rise = nsvcd__d3_dot(n, s->up);
