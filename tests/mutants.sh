@@ -1,8 +1,7 @@
 #!/bin/sh
 # Are the tests of the proof worth anything? Each mutant is the library with one mistake in it; tests/test_proof.c has to
 # fail on it, or, where its name begins with `level:`, `asks:`, `long:`, `exact:`, `floor:`, `solids:`, `round:`,
-# `robot:`, `looks:`, `shapes:`, `contacts:`, `world:`, `slide:`, `route_looks:`, `many_joints:`, `postures:`, `reach:`, `ranges:`, `allowances:`, `mimics:`, `merge:` or `cones:`, tests/test_level.c and so on; of `verify:` and `checker:` the mistake is in the checker of
-# `robot:`, `looks:`, `contacts:`, `world:`, `slide:`, `step:`, `route_looks:`, `many_joints:`, `postures:`, `reach:`, `ranges:`, `allowances:`, `mimics:`, `merge:` or `cones:`, tests/test_level.c and so on; of `verify:` and `checker:` the mistake is in the checker of
+# `robot:`, `looks:`, `shapes:`, `contacts:`, `world:`, `slide:`, `step:`, `route_looks:`, `many_joints:`, `postures:`, `reach:`, `ranges:`, `allowances:`, `mimics:`, `merge:` or `cones:`, tests/test_level.c and so on; of `verify:` and `checker:` the mistake is in the checker of
 # certificates, examples/verify, and tests/test_certificate.c or tests/test_checker.c has to fail, of `fits:`
 # tests/test_fits.c, of `plans:` tests/forge.py, which needs build/svcd. Prints a line for each, and exits with 1 if one survives. An argument runs only the mutants whose
 # name contains it. Some 20 seconds each; PART=0 OF=16 WORK=folder: every 16th of them, in a folder of its own.
@@ -575,6 +574,14 @@ slide: stays at the clearance|left[k].least = NSVCD__LEAVES * nsvcd__max(holds[k
 slide: no way down|if (stood \&\& !s.ground \&\& given->step > 0 \&\& rises <= 0) nsvcd__step_down(\&s);|
 slide: a climb is no way|s->pace *= 1 - gone;|
 slide: nobody rides|s->ridden = nsvcd__driven_speed(s, s->ground->body, nsvcd__pivot_at(s));|
+slide: no edge is one of a step|return gone >= 1 \&\& s->ground;|return 0;
+slide: edges of what is too high|return gone >= 1 \&\& s->ground;|return s->ground != NULL;
+slide: edges of what is too steep|return gone >= 1 \&\& s->ground;|return gone >= 1;
+slide: edges stop|h->normal = s->up;|(void)0;
+slide: flies off kerbs|if (stood) nsvcd__stop_climbing(\&s);|
+slide: jumps are eaten|if (s->jumps) return;|
+slide: kerbs eat jumps|if (!(s->given->step > 0) \|\| s->jumps) return 0;|if (!(s->given->step > 0)) return 0;
+slide: edges at rest on trains|nsvcd__climb(s);\n    nsvcd__ride(s);|nsvcd__climb(s);
 step: who rises waits|if ((world->residents[m->id].rise > 0) != goes_up) continue;|if (goes_up) continue;
 step: who rises is not raised|if (r->rise > 0) nsvcd__raise(|if (0) nsvcd__raise(
 step: movers of the array's order|return a.height < b.height;|return a.mover < b.mover;

@@ -15,6 +15,8 @@
 #define NSVCD__USUAL_CLEARANCE 0.005
 #define NSVCD__USUAL_ROUNDS 4
 #define NSVCD__USUAL_SLOPE 0.7
+// the least cosine of an edge of a step that feet stand on
+#define NSVCD__EDGE_SLOPE 0.05
 // of the margin: how exact stops are
 #define NSVCD__STOPS_WITHIN 0.05
 // of the margin: a way in which no point goes farther is none for what rubs against something
@@ -33,9 +35,12 @@ typedef struct nsvcd__slide {
   double clearance, margin, seconds;
   // of the frame; and what of it was of no use
   double left, lost;
-  // unit, or 0; the least cosine of a ground
+  // unit, or 0; the least cosine of a ground; and whether it may be an edge of a step in this round
   nsvcd__d3 up;
   double slope;
+  int is_on_edge;
+  // it was given a speed upwards
+  int jumps;
   // the speed of what it rides on; and the speed besides its own with which it leaves what is near
   nsvcd__d3 ridden, leaves;
   // what its last way met first; or nobody
@@ -86,7 +91,7 @@ static void nsvcd__slide_look(nsvcd__slide *s) {
   const nsvcd__d3 pivot = nsvcd__pivot_at(s);
   const double time = nsvcd__max(s->left, 1e-3) * s->seconds;
   const float within = (float)(s->clearance + 2 * s->margin);
-  double flattest = s->slope;
+  double flattest = s->is_on_edge ? NSVCD__EDGE_SLOPE : s->slope;
   size_t kept = 0;
   for (size_t k = 0; k < s->contact_count; k++)
     if (s->contacts[k].impulse > 0) s->contacts[kept++] = s->contacts[k];
