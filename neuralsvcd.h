@@ -15663,6 +15663,14 @@ static nsvcd__f3 nsvcd__f3_towards(nsvcd__f3 a, nsvcd__f3 b) {
   return nsvcd__f3_scale(a, nsvcd__f3_dot(a, b) < 0 ? -1.0f : 1.0f);
 }
 
+// The point nearest to 0 of a chord.
+static nsvcd__f3 nsvcd__f3_nearest(nsvcd__f3 start, nsvcd__f3 travel) {
+  const float square = nsvcd__f3_dot(travel, travel);
+  const float fraction = square > 0 ? -nsvcd__f3_dot(start, travel) / square : 0;
+  const float clamped = fraction > 0 ? fminf(fraction, 1) : 0;
+  return nsvcd__f3_add(start, nsvcd__f3_scale(travel, clamped));
+}
+
 // Is there a plane between two patches over the whole interval? A direction separates them if the
 // gap between the hulls along it is more than the margin and the deviation. First guesses: the last
 // plane that held, the slabs' normals, the line of centres. Then Gilbert's iteration (1966) from
@@ -15688,10 +15696,12 @@ static NSVCD__NOINLINE int nsvcd__hulls_are_apart(nsvcd__solver *w, size_t i, si
   const nsvcd__slab moving = nsvcd__slab_at(f->slabs, f->body->padded, i);
   const nsvcd__slab fixed = nsvcd__slab_at(g->slabs, g->body->padded, j);
   const nsvcd__f3 centre = nsvcd__patch_centre(f, i);
-  const nsvcd__f3 both =
-      nsvcd__f3_add(nsvcd__f3_transform(start, centre), nsvcd__f3_transform(end, centre));
-  const nsvcd__f3 middle = nsvcd__f3_scale(both, 0.5f);
-  const nsvcd__f3 line = nsvcd__f3_sub(middle, nsvcd__patch_centre(g, j));
+  // between the centres when they are nearest
+  const nsvcd__f3 from =
+      nsvcd__f3_sub(nsvcd__f3_transform(start, centre), nsvcd__patch_centre(g, j));
+  const nsvcd__f3 to =
+      nsvcd__f3_sub(nsvcd__f3_transform(end, centre), nsvcd__patch_centre(g, j));
+  const nsvcd__f3 line = nsvcd__f3_nearest(from, nsvcd__f3_sub(to, from));
   const nsvcd__f3 turned = nsvcd__mat3_apply(&start->rotation, moving.normal);
   const nsvcd__f3 guesses[NSVCD__GUESSES] = {w->memo.held,
                                              nsvcd__f3_towards(fixed.normal, line),
@@ -15699,7 +15709,9 @@ static NSVCD__NOINLINE int nsvcd__hulls_are_apart(nsvcd__solver *w, size_t i, si
   nsvcd__f3 nearest = {0, 0, 0};
   p->work++;
   // where all that is near is listed, most hulls are near, and their triangles cost no more
-  const size_t steps = p->goal.collects == NSVCD__LISTING ? 0 : NSVCD__PLANE_STEPS;
+  // nor do those that a point meets
+  const int is_brief = p->goal.collects == NSVCD__LISTING || f->hull_counts[i] == 1;
+  const size_t steps = is_brief ? 0 : NSVCD__PLANE_STEPS;
   for (size_t step = 0; step < NSVCD__GUESSES + steps; step++) {
     const nsvcd__f3 normal = step < NSVCD__GUESSES ? guesses[step] : nearest;
     const nsvcd__support found = nsvcd__support_along(w, normal);
@@ -15712,10 +15724,7 @@ static NSVCD__NOINLINE int nsvcd__hulls_are_apart(nsvcd__solver *w, size_t i, si
     }
     if (step + 1 < NSVCD__GUESSES) continue;
     const nsvcd__f3 toward = nsvcd__f3_sub(found.difference, nearest);
-    const float square = nsvcd__f3_dot(toward, toward);
-    float fraction = square > 0 ? -nsvcd__f3_dot(nearest, toward) / square : 0;
-    fraction = fraction > 0 ? fminf(fraction, 1) : 0;
-    const nsvcd__f3 nearer = nsvcd__f3_add(nearest, nsvcd__f3_scale(toward, fraction));
+    const nsvcd__f3 nearer = nsvcd__f3_nearest(nearest, toward);
     nearest = step < NSVCD__GUESSES ? found.difference : nearer;
     // the hulls come this near
     if (nsvcd__f3_dot(nearest, nearest) <= margin * margin) return 0;
@@ -15776,34 +15785,68 @@ static int nsvcd__held_again(nsvcd__solver *w, const nsvcd__search *q,
 // In: 16 triangles of a patch, and a plane or other triangles. Out: which of them may meet.
 
 #ifndef NSVCD_NO_PROOF
+// Point i of a patch.
+static nsvcd__f3 nsvcd__point_of(const nsvcd__geometry *f, size_t patch,
+                                 nsvcd__patch_points points, size_t i) {
+  if (i >= points.stored) return nsvcd__f3_load(nsvcd__position_of(f, patch, points, i));
+  const nsvcd__vertices stored = nsvcd__vertices_of(f, patch);
+  const nsvcd__f3 centre = nsvcd__patch_centre(f, patch);
+  const float step = f->steps[patch];
+  return nsvcd__f3_of(centre.x + step * (float)stored.x[i],
+                      centre.y + step * (float)stored.y[i],
+                      centre.z + step * (float)stored.z[i]);
+}
+
+// All points of a patch that has few. Corners name them in no order, and which kind each one is would
+// be mispredicted.
+#define NSVCD__FEW_POINTS 48
+static void nsvcd__few_points(const nsvcd__geometry *f, size_t patch,
+                              nsvcd__patch_points points, float (*out)[NSVCD__FEW_POINTS]) {
+  const nsvcd__vertices stored = nsvcd__vertices_of(f, patch);
+  const nsvcd__f3 centre = nsvcd__patch_centre(f, patch);
+  const float step = f->steps[patch];
+  const size_t references = points.stored + points.own;
+  for (size_t i = 0; i < points.stored; i++) {
+    out[0][i] = centre.x + step * (float)stored.x[i];
+    out[1][i] = centre.y + step * (float)stored.y[i];
+    out[2][i] = centre.z + step * (float)stored.z[i];
+  }
+  const float *own = f->positions + 3 * (size_t)f->first_own[patch];
+  for (size_t i = points.stored; i < references; i++, own += 3) {
+    for (size_t axis = 0; axis < 3; axis++) out[axis][i] = own[axis];
+  }
+  for (size_t i = references; i < points.all; i++) {
+    const size_t at = f->first_reference[patch] + i - references;
+    const float *other = f->positions + 3 * nsvcd__reference_at(f, at);
+    for (size_t axis = 0; axis < 3; axis++) out[axis][i] = other[axis];
+  }
+}
+
 // Loads entries first .. first + count - 1 of a patch, at most 16; the last one is repeated. Stored
 // points are off by no more than a quantization error, and what NSVCD__ROUNDING allows.
 static void nsvcd__block_load(const nsvcd__geometry *f, size_t patch, size_t first,
                               size_t count, nsvcd__block *out) {
   const nsvcd__patch_points points = nsvcd__points_of(f, patch);
-  const nsvcd__vertices stored = nsvcd__vertices_of(f, patch);
-  const nsvcd__f3 centre = nsvcd__patch_centre(f, patch);
-  const float step = f->steps[patch];
   const size_t bytes = nsvcd__corner_bytes(points.all);
   const unsigned char *codes =
       f->entries + f->first_byte[patch] + 3 * bytes * (first - f->first_triangle[patch]);
   out->patch = patch;
   out->first = first;
   out->count = count;
+  const int has_table = points.all <= NSVCD__FEW_POINTS;
+  float table[3][NSVCD__FEW_POINTS];
+  if (has_table) nsvcd__few_points(f, patch, points, table);
   for (size_t k = 0; k < 3; k++) {
     float(*to)[NSVCD__LANES] = out->corners[k];
-    for (size_t l = 0; l < count; l++) {
+    for (size_t l = 0; l < count && has_table; l++) {
+      const size_t i = codes[3 * l + k];
+      for (size_t axis = 0; axis < 3; axis++) to[axis][l] = table[axis][i];
+    }
+    for (size_t l = has_table ? count : 0; l < count; l++) {
       const size_t n = 3 * l + k;
       uint16_t i = codes[n];
       if (bytes == 2) memcpy(&i, codes + 2 * n, sizeof i);
-      if (i < points.stored) {
-        to[0][l] = centre.x + step * (float)stored.x[i];
-        to[1][l] = centre.y + step * (float)stored.y[i];
-        to[2][l] = centre.z + step * (float)stored.z[i];
-        continue;
-      }
-      const float *position = nsvcd__position_of(f, patch, points, i);
-      nsvcd__lane_set(nsvcd__f3_load(position), to, l);
+      nsvcd__lane_set(nsvcd__point_of(f, patch, points, i), to, l);
     }
     for (size_t l = count; l < NSVCD__LANES; l++)
       nsvcd__lane_set(nsvcd__lane_of(to, count - 1), to, l);
@@ -16407,6 +16450,9 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__sift_patch_pairs(nsvcd__solver *w,
                                                               nsvcd__search *q) {
   nsvcd__proof *p = &w->p;
   const int tells_more = p->goal.measure > 0 || p->goal.first > 0;
+  // the first contact of a straight motion follows from its triangles
+  const int follows = p->goal.first > 0 && p->arcs.motion->ticks == 1 &&
+                      nsvcd__is_straight(nsvcd__arc_at(&p->arcs, 0));
   size_t count = 0;
   nsvcd__clip_segment(w, q);
   for (size_t n = 0; n < w->fresh_count; n++) {
@@ -16415,7 +16461,7 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__sift_patch_pairs(nsvcd__solver *w,
   }
   w->fresh_count = 0;
   nsvcd__sort_patch_pairs(p, w->fresh, count);
-  if (count > 0 && w->fresh[0].depth > NSVCD__DEEP &&
+  if (count > 0 && w->fresh[0].depth > NSVCD__DEEP && !follows &&
       nsvcd__seek_in_patch_pair(w, q, &w->fresh[0]) == NSVCD__ANSWERED)
     return NSVCD__ANSWERED;
 
@@ -19036,8 +19082,10 @@ static void nsvcd__record(const nsvcd__task *task, nsvcd__tape *tape) {
 #define nsvcd__exit_is_blocked NSVCD__AT(exit_is_blocked)
 #define nsvcd__extremes_along NSVCD__AT(extremes_along)
 #define nsvcd__extremes_collect NSVCD__AT(extremes_collect)
+#define nsvcd__f3_nearest NSVCD__AT(f3_nearest)
 #define nsvcd__f3_towards NSVCD__AT(f3_towards)
 #define nsvcd__face_direction NSVCD__AT(face_direction)
+#define nsvcd__few_points NSVCD__AT(few_points)
 #define nsvcd__find_witness NSVCD__AT(find_witness)
 #define nsvcd__find_witness_in NSVCD__AT(find_witness_in)
 #define nsvcd__first_lanes NSVCD__AT(first_lanes)
@@ -19160,6 +19208,7 @@ static void nsvcd__record(const nsvcd__task *task, nsvcd__tape *tape) {
 #define nsvcd__plane_cache_begin NSVCD__AT(plane_cache_begin)
 #define nsvcd__plane_separates NSVCD__AT(plane_separates)
 #define nsvcd__planes_known NSVCD__AT(planes_known)
+#define nsvcd__point_of NSVCD__AT(point_of)
 #define nsvcd__pose_members NSVCD__AT(pose_members)
 #define nsvcd__pose_triangle NSVCD__AT(pose_triangle)
 #define nsvcd__probes NSVCD__AT(probes)

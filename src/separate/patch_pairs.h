@@ -254,6 +254,9 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__sift_patch_pairs(nsvcd__solver *w,
                                                               nsvcd__search *q) {
   nsvcd__proof *p = &w->p;
   const int tells_more = p->goal.measure > 0 || p->goal.first > 0;
+  // the first contact of a straight motion follows from its triangles
+  const int follows = p->goal.first > 0 && p->arcs.motion->ticks == 1 &&
+                      nsvcd__is_straight(nsvcd__arc_at(&p->arcs, 0));
   size_t count = 0;
   nsvcd__clip_segment(w, q);
   for (size_t n = 0; n < w->fresh_count; n++) {
@@ -262,7 +265,7 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__sift_patch_pairs(nsvcd__solver *w,
   }
   w->fresh_count = 0;
   nsvcd__sort_patch_pairs(p, w->fresh, count);
-  if (count > 0 && w->fresh[0].depth > NSVCD__DEEP &&
+  if (count > 0 && w->fresh[0].depth > NSVCD__DEEP && !follows &&
       nsvcd__seek_in_patch_pair(w, q, &w->fresh[0]) == NSVCD__ANSWERED)
     return NSVCD__ANSWERED;
 
