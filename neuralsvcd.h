@@ -12959,11 +12959,14 @@ static nsvcd__v3 nsvcd__v_shorter_turn(nsvcd__vquat a, nsvcd__vquat b, nsvcd__v 
 static void nsvcd__keyframes_read(const nsvcd__motion *m, const uint32_t *ticks, size_t count,
                                   nsvcd__keyframes *out) {
   nsvcd__world_pose fixed = {{0, 0, 0, 1}, nsvcd__d3_widen(m->fixed_position)};
+  nsvcd__world_pose moving = fixed;
   for (size_t l = 0; l < count; l++) {
-    const nsvcd__world_pose moving = nsvcd__track_pose(&m->moving, ticks[l]);
+    // segments of no length have the pose before
+    const int is_new = l == 0 || ticks[l] != ticks[l - 1];
+    if (is_new) moving = nsvcd__track_pose(&m->moving, ticks[l]);
     nsvcd__quat_put(moving.rotation, out->moving + l, NSVCD__ENDS);
     if (m->fixed_moves) {
-      fixed = nsvcd__track_pose(&m->fixed, ticks[l]);
+      if (is_new) fixed = nsvcd__track_pose(&m->fixed, ticks[l]);
       nsvcd__quat_put(fixed.rotation, out->fixed + l, NSVCD__ENDS);
     }
     const nsvcd__d3 offset = nsvcd__d3_sub(moving.position, fixed.position);
@@ -16063,9 +16066,18 @@ static NSVCD__NOINLINE uint32_t nsvcd__row_left(nsvcd__solver *w, size_t l,
   nsvcd__block *block = &w->blocks.moving;
   const nsvcd__box box = {nsvcd__lane_of(block->low, l), nsvcd__lane_of(block->high, l)};
   uint32_t met = nsvcd__lanes_near(fixed, box, margin);
+  // of a segment (a, b, b) or a point the normals of all edges but one, or two, are those of others
+  const nsvcd__f3 a = nsvcd__lane_of(block->corners[0], l);
+  const nsvcd__f3 b = nsvcd__lane_of(block->corners[1], l);
+  const nsvcd__f3 c = nsvcd__lane_of(block->corners[2], l);
+  const nsvcd__f3 ab = nsvcd__f3_sub(b, a);
+  const nsvcd__f3 bc = nsvcd__f3_sub(c, b);
+  const int is_segment = !(nsvcd__f3_dot(bc, bc) > 0);
+  const int is_point = is_segment && !(nsvcd__f3_dot(ab, ab) > 0);
+  const size_t normals = is_point ? 6 : is_segment ? 9 : NSVCD__NORMALS;
   // the last plane: see nsvcd__lanes_left_by_last
-  for (size_t k = w->p.goal.clearance > 0 ? NSVCD__LAST_NORMAL : 1; met && k < NSVCD__NORMALS;
-       k++)
+  for (size_t k = w->p.goal.clearance > 0 ? NSVCD__LAST_NORMAL : 1; met && k < normals;
+       k += k == 1 && is_segment ? 2 : 1)
     met = nsvcd__left_by_normal(w, l, fixed, k, margin, met);
   return met;
 }
@@ -16243,6 +16255,7 @@ static nsvcd__outcome nsvcd__resolve_row(nsvcd__solver *w, size_t l, nsvcd__bloc
   const size_t i = w->blocks.moving.patch;
   const size_t j = fixed->patch;
   const float errors = nsvcd__errors_of(p, i, j);
+  nsvcd__outcome outcome = NSVCD__DONE;
   p->work++;
   uint32_t met = nsvcd__row_left(w, l, fixed, margin);
   for (; met; met &= met - 1) {
@@ -16261,11 +16274,12 @@ static nsvcd__outcome nsvcd__resolve_row(nsvcd__solver *w, size_t l, nsvcd__bloc
     const size_t b = fixed->first + nsvcd__low_bit(met);
     const nsvcd__triangle_pair pair = nsvcd__pair_of(p, i, j, a, b);
     const nsvcd__outcome one = nsvcd__resolve_pair(p, &pair, u0, u1);
-    if (one != NSVCD__DONE) return one;
+    if (one != NSVCD__DONE && one != NSVCD__SHRUNK) return one;
+    if (one == NSVCD__SHRUNK) outcome = one;
     if (p->parts > patience) return NSVCD__TOO_LONG;
     p->shared = nsvcd__d3_distance2(p->separating, before) > 0 ? 0 : p->shared + 1;
   }
-  return NSVCD__DONE;
+  return outcome;
 }
 
 // All triangle pairs of patches i and j over an interval from u0 to u1 of the arc.
@@ -16306,7 +16320,11 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_triangles(nsvcd__solver *w,
           const nsvcd__outcome row = nsvcd__resolve_row(w, nsvcd__low_bit(lanes), fixed, arm,
                                                         margin, u0, u1, patience);
           if (row == NSVCD__ALL_DONE) return NSVCD__DONE;
-          if (row != NSVCD__DONE) return row;
+          // the question shrank with the last row: nothing is left to be asked again
+          const int is_last = !(lanes & (lanes - 1)) && n + 1 == w->blocks.window &&
+                              a + NSVCD__LANES >= moving_end &&
+                              b + NSVCD__WINDOW * NSVCD__LANES >= fixed_end;
+          if (row != NSVCD__DONE && !(row == NSVCD__SHRUNK && is_last)) return row;
         }
       }
     }
@@ -16455,6 +16473,7 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__sift_patch_pairs(nsvcd__solver *w,
                       nsvcd__is_straight(nsvcd__arc_at(&p->arcs, 0));
   size_t count = 0;
   nsvcd__clip_segment(w, q);
+  const uint32_t plane = w->memo.plane;
   for (size_t n = 0; n < w->fresh_count; n++) {
     if (nsvcd__held_again(w, q, &w->fresh[n])) continue;
     w->fresh[count++] = w->fresh[n];
@@ -16470,7 +16489,8 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__sift_patch_pairs(nsvcd__solver *w,
     if (nsvcd__check_budget(p)) return NSVCD__EXHAUSTED;
     nsvcd__clip_segment(w, q);
     if (!nsvcd__matters(p, q, patches->segment)) continue;
-    if (nsvcd__held_again(w, q, patches)) continue;
+    // by a plane found since
+    if (w->memo.plane != plane && nsvcd__held_again(w, q, patches)) continue;
     if (nsvcd__is_separated(w, q, patches)) continue;
     double u;
     const uint32_t first = nsvcd__arc_of(p->arcs.motion, q->begin[patches->segment], &u);

@@ -112,11 +112,14 @@ static nsvcd__v3 nsvcd__v_shorter_turn(nsvcd__vquat a, nsvcd__vquat b, nsvcd__v 
 static void nsvcd__keyframes_read(const nsvcd__motion *m, const uint32_t *ticks, size_t count,
                                   nsvcd__keyframes *out) {
   nsvcd__world_pose fixed = {{0, 0, 0, 1}, nsvcd__d3_widen(m->fixed_position)};
+  nsvcd__world_pose moving = fixed;
   for (size_t l = 0; l < count; l++) {
-    const nsvcd__world_pose moving = nsvcd__track_pose(&m->moving, ticks[l]);
+    // segments of no length have the pose before
+    const int is_new = l == 0 || ticks[l] != ticks[l - 1];
+    if (is_new) moving = nsvcd__track_pose(&m->moving, ticks[l]);
     nsvcd__quat_put(moving.rotation, out->moving + l, NSVCD__ENDS);
     if (m->fixed_moves) {
-      fixed = nsvcd__track_pose(&m->fixed, ticks[l]);
+      if (is_new) fixed = nsvcd__track_pose(&m->fixed, ticks[l]);
       nsvcd__quat_put(fixed.rotation, out->fixed + l, NSVCD__ENDS);
     }
     const nsvcd__d3 offset = nsvcd__d3_sub(moving.position, fixed.position);

@@ -281,9 +281,18 @@ static NSVCD__NOINLINE uint32_t nsvcd__row_left(nsvcd__solver *w, size_t l,
   nsvcd__block *block = &w->blocks.moving;
   const nsvcd__box box = {nsvcd__lane_of(block->low, l), nsvcd__lane_of(block->high, l)};
   uint32_t met = nsvcd__lanes_near(fixed, box, margin);
+  // of a segment (a, b, b) or a point the normals of all edges but one, or two, are those of others
+  const nsvcd__f3 a = nsvcd__lane_of(block->corners[0], l);
+  const nsvcd__f3 b = nsvcd__lane_of(block->corners[1], l);
+  const nsvcd__f3 c = nsvcd__lane_of(block->corners[2], l);
+  const nsvcd__f3 ab = nsvcd__f3_sub(b, a);
+  const nsvcd__f3 bc = nsvcd__f3_sub(c, b);
+  const int is_segment = !(nsvcd__f3_dot(bc, bc) > 0);
+  const int is_point = is_segment && !(nsvcd__f3_dot(ab, ab) > 0);
+  const size_t normals = is_point ? 6 : is_segment ? 9 : NSVCD__NORMALS;
   // the last plane: see nsvcd__lanes_left_by_last
-  for (size_t k = w->p.goal.clearance > 0 ? NSVCD__LAST_NORMAL : 1; met && k < NSVCD__NORMALS;
-       k++)
+  for (size_t k = w->p.goal.clearance > 0 ? NSVCD__LAST_NORMAL : 1; met && k < normals;
+       k += k == 1 && is_segment ? 2 : 1)
     met = nsvcd__left_by_normal(w, l, fixed, k, margin, met);
   return met;
 }

@@ -47,6 +47,7 @@ static nsvcd__outcome nsvcd__resolve_row(nsvcd__solver *w, size_t l, nsvcd__bloc
   const size_t i = w->blocks.moving.patch;
   const size_t j = fixed->patch;
   const float errors = nsvcd__errors_of(p, i, j);
+  nsvcd__outcome outcome = NSVCD__DONE;
   p->work++;
   uint32_t met = nsvcd__row_left(w, l, fixed, margin);
   for (; met; met &= met - 1) {
@@ -65,11 +66,12 @@ static nsvcd__outcome nsvcd__resolve_row(nsvcd__solver *w, size_t l, nsvcd__bloc
     const size_t b = fixed->first + nsvcd__low_bit(met);
     const nsvcd__triangle_pair pair = nsvcd__pair_of(p, i, j, a, b);
     const nsvcd__outcome one = nsvcd__resolve_pair(p, &pair, u0, u1);
-    if (one != NSVCD__DONE) return one;
+    if (one != NSVCD__DONE && one != NSVCD__SHRUNK) return one;
+    if (one == NSVCD__SHRUNK) outcome = one;
     if (p->parts > patience) return NSVCD__TOO_LONG;
     p->shared = nsvcd__d3_distance2(p->separating, before) > 0 ? 0 : p->shared + 1;
   }
-  return NSVCD__DONE;
+  return outcome;
 }
 
 // All triangle pairs of patches i and j over an interval from u0 to u1 of the arc.
@@ -110,7 +112,11 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_triangles(nsvcd__solver *w,
           const nsvcd__outcome row = nsvcd__resolve_row(w, nsvcd__low_bit(lanes), fixed, arm,
                                                         margin, u0, u1, patience);
           if (row == NSVCD__ALL_DONE) return NSVCD__DONE;
-          if (row != NSVCD__DONE) return row;
+          // the question shrank with the last row: nothing is left to be asked again
+          const int is_last = !(lanes & (lanes - 1)) && n + 1 == w->blocks.window &&
+                              a + NSVCD__LANES >= moving_end &&
+                              b + NSVCD__WINDOW * NSVCD__LANES >= fixed_end;
+          if (row != NSVCD__DONE && !(row == NSVCD__SHRUNK && is_last)) return row;
         }
       }
     }
@@ -259,6 +265,7 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__sift_patch_pairs(nsvcd__solver *w,
                       nsvcd__is_straight(nsvcd__arc_at(&p->arcs, 0));
   size_t count = 0;
   nsvcd__clip_segment(w, q);
+  const uint32_t plane = w->memo.plane;
   for (size_t n = 0; n < w->fresh_count; n++) {
     if (nsvcd__held_again(w, q, &w->fresh[n])) continue;
     w->fresh[count++] = w->fresh[n];
@@ -274,7 +281,8 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__sift_patch_pairs(nsvcd__solver *w,
     if (nsvcd__check_budget(p)) return NSVCD__EXHAUSTED;
     nsvcd__clip_segment(w, q);
     if (!nsvcd__matters(p, q, patches->segment)) continue;
-    if (nsvcd__held_again(w, q, patches)) continue;
+    // by a plane found since
+    if (w->memo.plane != plane && nsvcd__held_again(w, q, patches)) continue;
     if (nsvcd__is_separated(w, q, patches)) continue;
     double u;
     const uint32_t first = nsvcd__arc_of(p->arcs.motion, q->begin[patches->segment], &u);
