@@ -15580,6 +15580,43 @@ static NSVCD__NOINLINE void nsvcd__separate_groups(const nsvcd__proof *p, nsvcd_
     if (!*met) q->waiting &= ~((uint32_t)1 << at);
   }
 }
+// The way of the moving group in a segment, up to the end of what matters.
+typedef struct nsvcd__way {
+  size_t segment;
+  double start, length;  // ticks
+  // the chord of its sphere
+  nsvcd__f3 from, travel;
+  float inverse, radius;
+  // its slab, against 16 others
+  nsvcd__v_approach slabs;
+  nsvcd__vmat3 at_start, at_end;
+} nsvcd__way;
+
+// Of 16 spheres of the fixed body, those `met` whose slabs no plane normal to one separates from
+// that of the moving group: groups, if `level` is 1, or patches, 0, from number `first` on.
+static uint32_t nsvcd__slabs_on_way(const nsvcd__solver *w, nsvcd__way *way,
+                                    nsvcd__spheres spheres, size_t level, size_t first,
+                                    uint32_t met) {
+  const nsvcd__geometry *f = &w->p.fixed;
+  const float *slabs = (level > 0 ? f->group_slabs : f->slabs) + first;
+  const size_t padded = f->body->padded;
+  const size_t stride = level > 0 ? nsvcd__group_slots(padded) : padded;
+  nsvcd__v_approach *a = &way->slabs;
+  uint32_t left = 0;
+  NSVCD__EACH_SLICE(l) {
+    uint32_t wanted = met >> l & NSVCD__SLICE_MASK;
+    if (!wanted) continue;
+    a->from = nsvcd__v3_sub(nsvcd__v3_set(way->from), nsvcd__v3_centres(spheres, l));
+    a->fixed = nsvcd__v_slab_load(slabs + l, stride);
+    a->at_start = nsvcd__vmat3_apply_transpose(way->at_start, a->fixed.normal);
+    a->at_end = nsvcd__vmat3_apply_transpose(way->at_end, a->fixed.normal);
+    a->fixed_off = nsvcd__v_off(a, a->fixed.normal);
+    wanted &= ~nsvcd__v_separate_by_fixed(a);
+    if (wanted) wanted &= ~nsvcd__v_separate_by_moving(a);
+    left |= wanted << l;
+  }
+  return left;
+}
 #endif  // NSVCD_NO_PROOF
 
 // ---------------------------------------------------------------------------------- separate/hulls
@@ -17033,73 +17070,60 @@ typedef struct nsvcd__front {
   nsvcd__row square, fraction;
 } nsvcd__front;
 
-// Of the spheres `met` of a front, those that planes normal to a slab do not separate from the
-// moving group in segment s. slabs: (6, stride), of the first sphere on.
-static uint32_t nsvcd__front_slabs(nsvcd__solver *w, const nsvcd__search *q, size_t s,
-                                   nsvcd__spheres spheres, const float *slabs, size_t stride,
-                                   uint32_t met) {
+// The way in segment s.
+static void nsvcd__way_set(nsvcd__solver *w, nsvcd__search *q, size_t s, nsvcd__way *out) {
   const nsvcd__proof *p = &w->p;
-  const nsvcd__interval *over = nsvcd__segment_interval(w, q, s);
   const nsvcd_body *moving = p->moving.body;
   const nsvcd__slab own =
       nsvcd__slab_at(p->moving.group_slabs, nsvcd__group_slots(moving->padded), 0);
+  const size_t lane = s % NSVCD__LANES;
+  nsvcd__v_approach *a = &out->slabs;
+  nsvcd__chords *c = &q->group[s / NSVCD__LANES];
+  nsvcd__chords_of_group(q, 0);
+  const nsvcd__interval *over = nsvcd__segment_interval(w, q, s);
   const nsvcd__mat3 *from = &over->start.rotation;
   const nsvcd__mat3 *to = &over->end.rotation;
-  nsvcd__chords *c = &q->group[s / NSVCD__LANES];
-  const size_t lane = s % NSVCD__LANES;
   // rotations in an interval are times the scale
   const float half = 0.5f * p->arcs.motion->per_scale;
   const nsvcd__mat3 middle = nsvcd__mat3_mix(half, to, 1, from);
   const nsvcd__mat3 half_turn = nsvcd__mat3_mix(half, to, -1, from);
-  uint32_t left = 0;
-  nsvcd__v_approach a;
-  a.moving = nsvcd__v_slab_set(&own);
-  a.scale = nsvcd__v_set(q->scale);
-  a.over = nsvcd__v_interval_set(over);
-  a.clearance = nsvcd__clearance(&p->goal);
-  a.radius = nsvcd__group_extent(moving, 0);
-  a.chord = nsvcd__v3_set(nsvcd__lane_of(c->travel, lane));
-  a.mean = nsvcd__v3_set(nsvcd__mat3_apply(&middle, own.normal));
-  a.turned = nsvcd__v3_set(nsvcd__mat3_apply(&half_turn, own.normal));
-  NSVCD__EACH_SLICE(l) {
-    uint32_t wanted = met >> l & NSVCD__SLICE_MASK;
-    if (!wanted) continue;
-    a.from = nsvcd__v3_sub(nsvcd__v3_set(nsvcd__lane_of(c->start, lane)),
-                           nsvcd__v3_centres(spheres, l));
-    a.fixed = nsvcd__v_slab_load(slabs + l, stride);
-    a.at_start = nsvcd__vmat3_apply_transpose(nsvcd__vmat3_set(from), a.fixed.normal);
-    a.at_end = nsvcd__vmat3_apply_transpose(nsvcd__vmat3_set(to), a.fixed.normal);
-    a.fixed_off = nsvcd__v_off(&a, a.fixed.normal);
-    wanted &= ~nsvcd__v_separate_by_fixed(&a);
-    if (wanted) wanted &= ~nsvcd__v_separate_by_moving(&a);
-    left |= wanted << l;
-  }
-  return left;
+  out->segment = s;
+  out->start = (double)q->begin[s];
+  out->length = nsvcd__min((double)q->begin[s + 1], w->clipped_end) - out->start;
+  out->from = nsvcd__lane_of(c->start, lane);
+  out->travel = nsvcd__lane_of(c->travel, lane);
+  out->inverse = c->inverse[lane];
+  out->radius = c->radius[lane];
+  out->at_start = nsvcd__vmat3_set(from);
+  out->at_end = nsvcd__vmat3_set(to);
+  a->moving = nsvcd__v_slab_set(&own);
+  a->scale = nsvcd__v_set(q->scale);
+  a->over = nsvcd__v_interval_set(over);
+  a->clearance = nsvcd__clearance(&p->goal);
+  a->radius = nsvcd__group_extent(moving, 0);
+  a->chord = nsvcd__v3_set(out->travel);
+  a->mean = nsvcd__v3_set(nsvcd__mat3_apply(&middle, own.normal));
+  a->turned = nsvcd__v3_set(nsvcd__mat3_apply(&half_turn, own.normal));
 }
 
 // Fills a front with the 16 spheres from `first` on: patches if `level` is 0, else those of the
 // level below that number.
-static NSVCD__NOINLINE void nsvcd__front_fill(nsvcd__solver *w, const nsvcd__search *q,
-                                              size_t s, size_t level, size_t first,
-                                              nsvcd__front *out) {
-  const nsvcd__geometry *f = &w->p.fixed;
-  const nsvcd_body *fixed = f->body;
+static NSVCD__NOINLINE void nsvcd__front_fill(nsvcd__solver *w, nsvcd__way *way, size_t level,
+                                              size_t first, nsvcd__front *out) {
+  const nsvcd_body *fixed = w->p.fixed.body;
   const nsvcd__spheres all =
       level > 0 ? nsvcd__level_spheres(fixed, nsvcd__level_of(fixed->padded, level - 1))
                 : nsvcd__body_patches(fixed);
   const nsvcd__spheres spheres = nsvcd__spheres_from(all, first);
-  nsvcd__chords *c = &q->group[s / NSVCD__LANES];
-  const size_t lane = s % NSVCD__LANES;
-  const nsvcd__v3 start = nsvcd__v3_set(nsvcd__lane_of(c->start, lane));
-  const nsvcd__v3 travel = nsvcd__v3_set(nsvcd__lane_of(c->travel, lane));
-  const nsvcd__v inverse = nsvcd__v_set(c->inverse[lane]);
-  const nsvcd__v own = nsvcd__v_set(c->radius[lane]);
-  const nsvcd__v per_length = nsvcd__v_set(sqrtf(-c->inverse[lane]));
+  const nsvcd__v3 start = nsvcd__v3_set(way->from);
+  const nsvcd__v3 travel = nsvcd__v3_set(way->travel);
+  const nsvcd__v per_length = nsvcd__v_set(sqrtf(-way->inverse));
   uint32_t met = 0;
   NSVCD__EACH_SLICE(l) {
     const nsvcd__v3 d = nsvcd__v3_sub(start, nsvcd__v3_centres(spheres, l));
-    const nsvcd__v sum = nsvcd__v_add(own, nsvcd__v_load(spheres.r + l));
-    const nsvcd__v nearest = nsvcd__v_mul(nsvcd__v3_dot(d, travel), inverse);
+    const nsvcd__v sum = nsvcd__v_plus(nsvcd__v_load(spheres.r + l), way->radius);
+    const nsvcd__v nearest =
+        nsvcd__v_mul(nsvcd__v3_dot(d, travel), nsvcd__v_set(way->inverse));
     const nsvcd__v tau = nsvcd__v_clamp(nearest, 0, 1);
     const nsvcd__v3 off = nsvcd__v3_fma(tau, travel, d);
     const nsvcd__v square = nsvcd__v3_dot(off, off);
@@ -17109,14 +17133,9 @@ static NSVCD__NOINLINE void nsvcd__front_fill(nsvcd__solver *w, const nsvcd__sea
     nsvcd__v_store(out->fraction + l, tau);
   }
   out->first = first;
-  out->start = (double)q->begin[s];
-  out->length = nsvcd__min((double)q->begin[s + 1], w->clipped_end) - out->start;
-  if (level == 0 && met)
-    met = nsvcd__front_slabs(w, q, s, spheres, f->slabs + first, fixed->padded, met);
-  if (level == 1 && met)
-    met = nsvcd__front_slabs(w, q, s, spheres, f->group_slabs + first,
-                             nsvcd__group_slots(fixed->padded), met);
-  out->left = met;
+  out->start = way->start;
+  out->length = way->length;
+  out->left = level < 2 ? nsvcd__slabs_on_way(w, way, spheres, level, first, met) : met;
 }
 
 // Takes the sphere that is met first off a front, and returns its lane; LANES: none is left, or all
@@ -17136,17 +17155,17 @@ static size_t nsvcd__front_next(const nsvcd__proof *p, nsvcd__front *front) {
 }
 
 // Adds the patch pairs of the moving group and the patches of a front, and takes them.
-static nsvcd__outcome nsvcd__front_take(nsvcd__solver *w, nsvcd__search *q, size_t s,
-                                        nsvcd__front *patches) {
+static nsvcd__outcome nsvcd__front_take(nsvcd__solver *w, nsvcd__search *q,
+                                        const nsvcd__way *way, nsvcd__front *patches) {
   nsvcd__proof *p = &w->p;
+  const size_t s = way->segment;
   for (uint32_t met = patches->left; met; met &= met - 1) {
     const size_t l = nsvcd__low_bit(met);
     const size_t j = patches->first + l;
     uint64_t left = (uint64_t)1 << s;
     if (p->fixed.hull_counts[j] == 0) continue;
     if (p->moving.body->patches == 1) {
-      const float radii = q->group[s / NSVCD__LANES].radius[s % NSVCD__LANES] +
-                          nsvcd__body_r(p->fixed.body)[j];
+      const float radii = way->radius + nsvcd__body_r(p->fixed.body)[j];
       const float depth = 1 - sqrtf(patches->square[l]) / (radii > 1e-30f ? radii : 1e-30f);
       const nsvcd__patch_pair pair = {0, (uint16_t)j, (uint16_t)s,
                                       0, depth,       patches->fraction[l]};
@@ -17169,12 +17188,14 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__prove_in_order(nsvcd__solver *w, ns
                                                             size_t s) {
   nsvcd__proof *p = &w->p;
   nsvcd__front fronts[NSVCD__LEVELS + 1];
+  nsvcd__way way;
   const size_t padded = p->fixed.body->padded;
   const size_t top = nsvcd__level_count(padded);
   const size_t slots = nsvcd__level_of(padded, top - 1).slots;
+  nsvcd__way_set(w, q, s, &way);
   for (size_t first = 0; first < slots; first += NSVCD__GROUP) {
     size_t level = top;
-    nsvcd__front_fill(w, q, s, level, first, &fronts[level]);
+    nsvcd__front_fill(w, &way, level, first, &fronts[level]);
     for (;;) {
       const size_t l =
           nsvcd__matters(p, q, s) ? nsvcd__front_next(p, &fronts[level]) : NSVCD__LANES;
@@ -17184,17 +17205,17 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__prove_in_order(nsvcd__solver *w, ns
         continue;
       }
       const size_t next = NSVCD__GROUP * (fronts[level].first + l);
-      nsvcd__front_fill(w, q, s, level - 1, next, &fronts[level - 1]);
+      nsvcd__front_fill(w, &way, level - 1, next, &fronts[level - 1]);
       if (level > 1) {
         level--;
         continue;
       }
       const double end = p->known.end;
-      const nsvcd__outcome outcome = nsvcd__front_take(w, q, s, &fronts[0]);
+      const nsvcd__outcome outcome = nsvcd__front_take(w, q, &way, &fronts[0]);
       if (outcome != NSVCD__DONE) return outcome;
       if (!(p->known.end < end)) continue;
       nsvcd__clip_segment(w, q);
-      nsvcd__chords_of_group(q, 0);
+      nsvcd__way_set(w, q, s, &way);
     }
   }
   return nsvcd__resolve_patch_pairs(w, q);
@@ -17206,7 +17227,6 @@ static nsvcd__outcome nsvcd__prove_all_in_order(nsvcd__solver *w, nsvcd__search 
   q->moving = p->moving.body;
   q->fixed = p->fixed.body;
   q->ready = 0;
-  nsvcd__chords_of_group(q, 0);
   for (size_t s = 0; s < q->segments && nsvcd__matters(p, q, s); s++) {
     q->wanted = (uint64_t)1 << s;
     const nsvcd__outcome outcome = nsvcd__prove_in_order(w, q, s);
@@ -19131,7 +19151,6 @@ static void nsvcd__record(const nsvcd__task *task, nsvcd__tape *tape) {
 #define nsvcd__front NSVCD__AT(front)
 #define nsvcd__front_fill NSVCD__AT(front_fill)
 #define nsvcd__front_next NSVCD__AT(front_next)
-#define nsvcd__front_slabs NSVCD__AT(front_slabs)
 #define nsvcd__front_take NSVCD__AT(front_take)
 #define nsvcd__gap_after NSVCD__AT(gap_after)
 #define nsvcd__gap_axes_of NSVCD__AT(gap_axes_of)
@@ -19297,6 +19316,7 @@ static void nsvcd__record(const nsvcd__task *task, nsvcd__tape *tape) {
 #define nsvcd__separated_along NSVCD__AT(separated_along)
 #define nsvcd__sift_patch_pairs NSVCD__AT(sift_patch_pairs)
 #define nsvcd__slabs_meet NSVCD__AT(slabs_meet)
+#define nsvcd__slabs_on_way NSVCD__AT(slabs_on_way)
 #define nsvcd__slerp_in NSVCD__AT(slerp_in)
 #define nsvcd__slice_against_patch NSVCD__AT(slice_against_patch)
 #define nsvcd__sort_patch_pairs NSVCD__AT(sort_patch_pairs)
@@ -19416,7 +19436,9 @@ static void nsvcd__record(const nsvcd__task *task, nsvcd__tape *tape) {
 #define nsvcd__vquat_set NSVCD__AT(vquat_set)
 #define nsvcd__vquat_store NSVCD__AT(vquat_store)
 #define nsvcd__vquat_unit NSVCD__AT(vquat_unit)
+#define nsvcd__way NSVCD__AT(way)
 #define nsvcd__way_out NSVCD__AT(way_out)
+#define nsvcd__way_set NSVCD__AT(way_set)
 #define nsvcd__weights_at NSVCD__AT(weights_at)
 #define nsvcd__wigner NSVCD__AT(wigner)
 #define nsvcd__winding_number NSVCD__AT(winding_number)

@@ -246,4 +246,41 @@ static NSVCD__NOINLINE void nsvcd__separate_groups(const nsvcd__proof *p, nsvcd_
     if (!*met) q->waiting &= ~((uint32_t)1 << at);
   }
 }
+// The way of the moving group in a segment, up to the end of what matters.
+typedef struct nsvcd__way {
+  size_t segment;
+  double start, length;  // ticks
+  // the chord of its sphere
+  nsvcd__f3 from, travel;
+  float inverse, radius;
+  // its slab, against 16 others
+  nsvcd__v_approach slabs;
+  nsvcd__vmat3 at_start, at_end;
+} nsvcd__way;
+
+// Of 16 spheres of the fixed body, those `met` whose slabs no plane normal to one separates from
+// that of the moving group: groups, if `level` is 1, or patches, 0, from number `first` on.
+static uint32_t nsvcd__slabs_on_way(const nsvcd__solver *w, nsvcd__way *way,
+                                    nsvcd__spheres spheres, size_t level, size_t first,
+                                    uint32_t met) {
+  const nsvcd__geometry *f = &w->p.fixed;
+  const float *slabs = (level > 0 ? f->group_slabs : f->slabs) + first;
+  const size_t padded = f->body->padded;
+  const size_t stride = level > 0 ? nsvcd__group_slots(padded) : padded;
+  nsvcd__v_approach *a = &way->slabs;
+  uint32_t left = 0;
+  NSVCD__EACH_SLICE(l) {
+    uint32_t wanted = met >> l & NSVCD__SLICE_MASK;
+    if (!wanted) continue;
+    a->from = nsvcd__v3_sub(nsvcd__v3_set(way->from), nsvcd__v3_centres(spheres, l));
+    a->fixed = nsvcd__v_slab_load(slabs + l, stride);
+    a->at_start = nsvcd__vmat3_apply_transpose(way->at_start, a->fixed.normal);
+    a->at_end = nsvcd__vmat3_apply_transpose(way->at_end, a->fixed.normal);
+    a->fixed_off = nsvcd__v_off(a, a->fixed.normal);
+    wanted &= ~nsvcd__v_separate_by_fixed(a);
+    if (wanted) wanted &= ~nsvcd__v_separate_by_moving(a);
+    left |= wanted << l;
+  }
+  return left;
+}
 #endif  // NSVCD_NO_PROOF
