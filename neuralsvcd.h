@@ -11706,8 +11706,10 @@ static float nsvcd__errors_of(const nsvcd__proof *p, size_t i, size_t j) {
 
 // Turns to a motion. None of its arcs is known, nor any pose.
 static void nsvcd__arcs_begin(nsvcd__arcs *arcs, nsvcd__motion *motion) {
-  memset(arcs, 0, sizeof *arcs);
   arcs->motion = motion;
+  arcs->arc.ticks = 0;
+  arcs->next = 0;
+  for (size_t n = 0; n < NSVCD__KNOWN_POSES; n++) arcs->poses[n].ticks = 0;
 }
 
 // Answers in float cannot tell things apart that are nearer to each other than this.
@@ -14393,6 +14395,11 @@ static nsvcd__slerp nsvcd__slerp_in(const nsvcd__track *track, uint32_t first, u
   return out;
 }
 
+// Does the moving body turn, or the fixed one move? If not, the rotation is always that at the start.
+static int nsvcd__turns(const nsvcd__arc *arc) {
+  return arc->turn > 0 || arc->fixed_moves;
+}
+
 // The arc that begins at the keyframe `first`.
 static const nsvcd__arc *nsvcd__arc_at(nsvcd__arcs *arcs, uint32_t first) {
   const nsvcd__motion *m = arcs->motion;
@@ -14441,6 +14448,7 @@ static const nsvcd__arc *nsvcd__arc_at(nsvcd__arcs *arcs, uint32_t first) {
   const nsvcd__dmat3 moving = nsvcd__dmat3_of(nsvcd__slerp_at(&arc->moving, 0));
   const double arm = nsvcd__d3_norm(arc->pivot);
   arc->turn = nsvcd__d3_norm(turn);
+  if (!nsvcd__turns(arc)) arc->moving.start = nsvcd__slerp_at(&arc->moving, 0);
   arc->speed = nsvcd__d3_norm(arc->moved) + swing + arc->turn * arm;
   arc->twist = 0.1250001 * arc->scale * twist;
   arc->origin_bend = 0.1250001 * (2 * across + angle * swing);
@@ -14460,7 +14468,7 @@ static int nsvcd__is_straight(const nsvcd__arc *arc) {
 // The true pose at fraction u of the arc, as the fixed body sees it. Its rotation is times the
 // moving body's scale.
 static nsvcd__dtransform nsvcd__dtransform_at(const nsvcd__arc *arc, double u) {
-  nsvcd__dquat q = nsvcd__slerp_at(&arc->moving, u);
+  nsvcd__dquat q = nsvcd__turns(arc) ? nsvcd__slerp_at(&arc->moving, u) : arc->moving.start;
   nsvcd__dtransform at;
   at.position = nsvcd__d3_add(arc->from, nsvcd__d3_scale(arc->moved, u));
   if (arc->fixed_moves) {
@@ -14487,9 +14495,11 @@ static const nsvcd__dtransform *nsvcd__arc_pose(nsvcd__arcs *arcs, double u) {
     if (known->arc == arc->first && known->ticks == arc->ticks && known->u == u) break;
   }
   if (n == NSVCD__KNOWN_POSES) {
-    const nsvcd__known_pose made = {arc->first, arc->ticks, u, nsvcd__dtransform_at(arc, u)};
     n = next;
-    arcs->poses[n] = made;
+    arcs->poses[n].transform = nsvcd__dtransform_at(arc, u);
+    arcs->poses[n].arc = arc->first;
+    arcs->poses[n].ticks = arc->ticks;
+    arcs->poses[n].u = u;
   }
   if (n == next) arcs->next = (n + 1) % NSVCD__KNOWN_POSES;
   return &arcs->poses[n].transform;
@@ -14543,12 +14553,12 @@ static const nsvcd__interval *nsvcd__segment_interval(nsvcd__solver *w, const ns
 static nsvcd__interval nsvcd__interval_of_arc(nsvcd__proof *p, uint32_t first, double u0,
                                               double u1) {
   const nsvcd__arc *arc = nsvcd__arc_at(&p->arcs, first);
-  const nsvcd__dtransform start = nsvcd__dtransform_at(arc, u0);
-  const nsvcd__dtransform end = nsvcd__dtransform_at(arc, u1);
+  const nsvcd__dtransform *start = nsvcd__arc_pose(&p->arcs, u0);
+  const nsvcd__dtransform *end = nsvcd__arc_pose(&p->arcs, u1);
   const double square = (u1 - u0) * (u1 - u0);
   nsvcd__interval out;
-  out.start = nsvcd__transform_of(&start);
-  out.end = nsvcd__transform_of(&end);
+  out.start = nsvcd__transform_of(start);
+  out.end = nsvcd__transform_of(end);
   const float extent_start = nsvcd__f3_norm(out.start.position);
   const float extent = extent_start + nsvcd__f3_norm(out.end.position);
   out.bend = (float)(square * (arc->bend + arc->twist) * 1.000001);
@@ -14656,6 +14666,7 @@ typedef struct nsvcd__triangle_pair {
 // Sets from_origin and from_axis.
 static void nsvcd__pair_arm(const nsvcd__arc *arc, nsvcd__triangle_pair *pair) {
   pair->from_origin = pair->from_axis = 0;
+  if (nsvcd__is_straight(arc)) return;  // what turns nothing has no arm
   for (size_t k = 0; k < 3; k++) {
     const nsvcd__d3 corner = pair->moving[k];
     const nsvcd__d3 across = nsvcd__d3_cross(corner, arc->own_axis);
@@ -16947,7 +16958,8 @@ static int nsvcd__contains_seeds(nsvcd__solver *w, const nsvcd__enclosure *e, si
 static int nsvcd__contains_any(nsvcd__solver *w, const nsvcd__enclosure *e) {
   const nsvcd_body *inner = e->inner->body;
   const nsvcd_body *outer = e->outer->body;
-  if (outer->open) return 0;
+  // nor does a single triangle, segment or point enclose anything
+  if (outer->open || outer->triangles < 2) return 0;
   const int is_one = e->inner->counts->components == 1 && e->outer->kind_bits == 1;
   if (is_one && nsvcd__sticks_out(e->inner, &e->rounded, e->scale, outer)) return 0;
   if (e->inner->counts->components <= NSVCD__LANES)
@@ -19336,6 +19348,7 @@ static void nsvcd__record(const nsvcd__task *task, nsvcd__tape *tape) {
 #define nsvcd__transform_of NSVCD__AT(transform_of)
 #define nsvcd__triangle_pair NSVCD__AT(triangle_pair)
 #define nsvcd__turned_back NSVCD__AT(turned_back)
+#define nsvcd__turns NSVCD__AT(turns)
 #define nsvcd__undoes NSVCD__AT(undoes)
 #define nsvcd__undone_by NSVCD__AT(undone_by)
 #define nsvcd__v NSVCD__AT(v)

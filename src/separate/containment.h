@@ -355,7 +355,8 @@ static int nsvcd__contains_seeds(nsvcd__solver *w, const nsvcd__enclosure *e, si
 static int nsvcd__contains_any(nsvcd__solver *w, const nsvcd__enclosure *e) {
   const nsvcd_body *inner = e->inner->body;
   const nsvcd_body *outer = e->outer->body;
-  if (outer->open) return 0;
+  // nor does a single triangle, segment or point enclose anything
+  if (outer->open || outer->triangles < 2) return 0;
   const int is_one = e->inner->counts->components == 1 && e->outer->kind_bits == 1;
   if (is_one && nsvcd__sticks_out(e->inner, &e->rounded, e->scale, outer)) return 0;
   if (e->inner->counts->components <= NSVCD__LANES)

@@ -33,12 +33,12 @@ static const nsvcd__interval *nsvcd__segment_interval(nsvcd__solver *w, const ns
 static nsvcd__interval nsvcd__interval_of_arc(nsvcd__proof *p, uint32_t first, double u0,
                                               double u1) {
   const nsvcd__arc *arc = nsvcd__arc_at(&p->arcs, first);
-  const nsvcd__dtransform start = nsvcd__dtransform_at(arc, u0);
-  const nsvcd__dtransform end = nsvcd__dtransform_at(arc, u1);
+  const nsvcd__dtransform *start = nsvcd__arc_pose(&p->arcs, u0);
+  const nsvcd__dtransform *end = nsvcd__arc_pose(&p->arcs, u1);
   const double square = (u1 - u0) * (u1 - u0);
   nsvcd__interval out;
-  out.start = nsvcd__transform_of(&start);
-  out.end = nsvcd__transform_of(&end);
+  out.start = nsvcd__transform_of(start);
+  out.end = nsvcd__transform_of(end);
   const float extent_start = nsvcd__f3_norm(out.start.position);
   const float extent = extent_start + nsvcd__f3_norm(out.end.position);
   out.bend = (float)(square * (arc->bend + arc->twist) * 1.000001);
