@@ -11553,7 +11553,7 @@ typedef struct nsvcd__memo {
   // segments that have been made intervals
   uint64_t intervals;
   // The normal of the plane between hulls that held last, and its number, 0: none; and the heights
-  // of moving and of fixed patches over it.
+  // of moving and of fixed patches over it. Without a plane these are not even zeros.
   nsvcd__f3 held;
   uint32_t plane;
   nsvcd__height heights[NSVCD__HEIGHTS], fixed_heights[NSVCD__FIXED_HEIGHTS];
@@ -12962,17 +12962,17 @@ static void nsvcd__keyframes_read(const nsvcd__motion *m, const uint32_t *ticks,
                                   nsvcd__keyframes *out) {
   nsvcd__world_pose fixed = {{0, 0, 0, 1}, nsvcd__d3_widen(m->fixed_position)};
   nsvcd__world_pose moving = fixed;
+  nsvcd__f3 offset = {0, 0, 0};
   for (size_t l = 0; l < count; l++) {
     // segments of no length have the pose before
-    const int is_new = l == 0 || ticks[l] != ticks[l - 1];
-    if (is_new) moving = nsvcd__track_pose(&m->moving, ticks[l]);
-    nsvcd__quat_put(moving.rotation, out->moving + l, NSVCD__ENDS);
-    if (m->fixed_moves) {
-      if (is_new) fixed = nsvcd__track_pose(&m->fixed, ticks[l]);
-      nsvcd__quat_put(fixed.rotation, out->fixed + l, NSVCD__ENDS);
+    if (l == 0 || ticks[l] != ticks[l - 1]) {
+      moving = nsvcd__track_pose(&m->moving, ticks[l]);
+      if (m->fixed_moves) fixed = nsvcd__track_pose(&m->fixed, ticks[l]);
+      offset = nsvcd__d3_narrow(nsvcd__d3_sub(moving.position, fixed.position));
     }
-    const nsvcd__d3 offset = nsvcd__d3_sub(moving.position, fixed.position);
-    nsvcd__f3_put(nsvcd__d3_narrow(offset), out->offset + l, NSVCD__ENDS);
+    nsvcd__quat_put(moving.rotation, out->moving + l, NSVCD__ENDS);
+    nsvcd__f3_put(offset, out->offset + l, NSVCD__ENDS);
+    if (m->fixed_moves) nsvcd__quat_put(fixed.rotation, out->fixed + l, NSVCD__ENDS);
   }
 }
 
@@ -15612,6 +15612,7 @@ static uint32_t nsvcd__slabs_on_way(const nsvcd__solver *w, nsvcd__way *way,
   const float *slabs = (level > 0 ? f->group_slabs : f->slabs) + first;
   const size_t padded = f->body->padded;
   const size_t stride = level > 0 ? nsvcd__group_slots(padded) : padded;
+  const int is_point = w->p.moving.body->patches == 1 && w->p.moving.hull_counts[0] == 1;
   nsvcd__v_approach *a = &way->slabs;
   uint32_t left = 0;
   NSVCD__EACH_SLICE(l) {
@@ -15623,7 +15624,7 @@ static uint32_t nsvcd__slabs_on_way(const nsvcd__solver *w, nsvcd__way *way,
     a->at_end = nsvcd__vmat3_apply_transpose(way->at_end, a->fixed.normal);
     a->fixed_off = nsvcd__v_off(a, a->fixed.normal);
     wanted &= ~nsvcd__v_separate_by_fixed(a);
-    if (wanted) wanted &= ~nsvcd__v_separate_by_moving(a);
+    if (wanted && !is_point) wanted &= ~nsvcd__v_separate_by_moving(a);
     left |= wanted << l;
   }
   return left;
@@ -15714,6 +15715,16 @@ static nsvcd__f3 nsvcd__f3_towards(nsvcd__f3 a, nsvcd__f3 b) {
   return nsvcd__f3_scale(a, nsvcd__f3_dot(a, b) < 0 ? -1.0f : 1.0f);
 }
 
+// Remembers a plane that held. No heights are known over the first one.
+static void nsvcd__hold_plane(nsvcd__memo *memo, nsvcd__f3 normal) {
+  if (!memo->plane) {
+    memset(memo->heights, 0, sizeof memo->heights);
+    memset(memo->fixed_heights, 0, sizeof memo->fixed_heights);
+  }
+  memo->held = normal;
+  memo->plane++;
+}
+
 // The point nearest to 0 of a chord.
 static nsvcd__f3 nsvcd__f3_nearest(nsvcd__f3 start, nsvcd__f3 travel) {
   const float square = nsvcd__f3_dot(travel, travel);
@@ -15769,8 +15780,7 @@ static NSVCD__NOINLINE int nsvcd__hulls_are_apart(nsvcd__solver *w, size_t i, si
     const float length = nsvcd__f3_norm(normal);
     if (found.gap > 0 &&
         found.gap > margin * length + nsvcd__deviation_of(over, normal, arm)) {
-      w->memo.held = normal;
-      w->memo.plane++;
+      nsvcd__hold_plane(&w->memo, normal);
       return 1;
     }
     if (step + 1 < NSVCD__GUESSES) continue;
@@ -16592,8 +16602,7 @@ static nsvcd__outcome nsvcd__collect_contacts(nsvcd__solver *w, const nsvcd__sea
       const uint32_t before = p->near_list.count;
       (void)nsvcd__find_witness(w, patches->moving, patches->fixed, 0, 0);
       if (p->near_list.count > before) {
-        w->memo.held = nsvcd__f3_round(p->separating);
-        w->memo.plane++;
+        nsvcd__hold_plane(&w->memo, nsvcd__f3_round(p->separating));
       }
     }
   }
@@ -19174,6 +19183,7 @@ static void nsvcd__record(const nsvcd__task *task, nsvcd__tape *tape) {
 #define nsvcd__group_against_members NSVCD__AT(group_against_members)
 #define nsvcd__group_extent NSVCD__AT(group_extent)
 #define nsvcd__held_again NSVCD__AT(held_again)
+#define nsvcd__hold_plane NSVCD__AT(hold_plane)
 #define nsvcd__hull_of NSVCD__AT(hull_of)
 #define nsvcd__hulls_are_apart NSVCD__AT(hulls_are_apart)
 #define nsvcd__inputs NSVCD__AT(inputs)
@@ -20150,7 +20160,8 @@ static void nsvcd__restart(nsvcd__solver *w, nsvcd__motion *motion) {
   p->shared = w->blocks.window = 0;
   p->push.too_deep = w->blocks.has_block = 0;
   p->separating = nsvcd__d3_of(0, 0, 0);
-  memset(&w->memo, 0, sizeof w->memo);
+  w->memo.intervals = w->memo.plane = 0;
+  w->memo.held = nsvcd__f3_of(0, 0, 0);
 }
 
 // Searches any motion, from scratch.

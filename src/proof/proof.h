@@ -330,7 +330,7 @@ typedef struct nsvcd__memo {
   // segments that have been made intervals
   uint64_t intervals;
   // The normal of the plane between hulls that held last, and its number, 0: none; and the heights
-  // of moving and of fixed patches over it.
+  // of moving and of fixed patches over it. Without a plane these are not even zeros.
   nsvcd__f3 held;
   uint32_t plane;
   nsvcd__height heights[NSVCD__HEIGHTS], fixed_heights[NSVCD__FIXED_HEIGHTS];

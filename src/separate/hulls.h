@@ -84,6 +84,16 @@ static nsvcd__f3 nsvcd__f3_towards(nsvcd__f3 a, nsvcd__f3 b) {
   return nsvcd__f3_scale(a, nsvcd__f3_dot(a, b) < 0 ? -1.0f : 1.0f);
 }
 
+// Remembers a plane that held. No heights are known over the first one.
+static void nsvcd__hold_plane(nsvcd__memo *memo, nsvcd__f3 normal) {
+  if (!memo->plane) {
+    memset(memo->heights, 0, sizeof memo->heights);
+    memset(memo->fixed_heights, 0, sizeof memo->fixed_heights);
+  }
+  memo->held = normal;
+  memo->plane++;
+}
+
 // The point nearest to 0 of a chord.
 static nsvcd__f3 nsvcd__f3_nearest(nsvcd__f3 start, nsvcd__f3 travel) {
   const float square = nsvcd__f3_dot(travel, travel);
@@ -139,8 +149,7 @@ static NSVCD__NOINLINE int nsvcd__hulls_are_apart(nsvcd__solver *w, size_t i, si
     const float length = nsvcd__f3_norm(normal);
     if (found.gap > 0 &&
         found.gap > margin * length + nsvcd__deviation_of(over, normal, arm)) {
-      w->memo.held = normal;
-      w->memo.plane++;
+      nsvcd__hold_plane(&w->memo, normal);
       return 1;
     }
     if (step + 1 < NSVCD__GUESSES) continue;

@@ -336,8 +336,7 @@ static nsvcd__outcome nsvcd__collect_contacts(nsvcd__solver *w, const nsvcd__sea
       const uint32_t before = p->near_list.count;
       (void)nsvcd__find_witness(w, patches->moving, patches->fixed, 0, 0);
       if (p->near_list.count > before) {
-        w->memo.held = nsvcd__f3_round(p->separating);
-        w->memo.plane++;
+        nsvcd__hold_plane(&w->memo, nsvcd__f3_round(p->separating));
       }
     }
   }

@@ -267,6 +267,7 @@ static uint32_t nsvcd__slabs_on_way(const nsvcd__solver *w, nsvcd__way *way,
   const float *slabs = (level > 0 ? f->group_slabs : f->slabs) + first;
   const size_t padded = f->body->padded;
   const size_t stride = level > 0 ? nsvcd__group_slots(padded) : padded;
+  const int is_point = w->p.moving.body->patches == 1 && w->p.moving.hull_counts[0] == 1;
   nsvcd__v_approach *a = &way->slabs;
   uint32_t left = 0;
   NSVCD__EACH_SLICE(l) {
@@ -278,7 +279,7 @@ static uint32_t nsvcd__slabs_on_way(const nsvcd__solver *w, nsvcd__way *way,
     a->at_end = nsvcd__vmat3_apply_transpose(way->at_end, a->fixed.normal);
     a->fixed_off = nsvcd__v_off(a, a->fixed.normal);
     wanted &= ~nsvcd__v_separate_by_fixed(a);
-    if (wanted) wanted &= ~nsvcd__v_separate_by_moving(a);
+    if (wanted && !is_point) wanted &= ~nsvcd__v_separate_by_moving(a);
     left |= wanted << l;
   }
   return left;
