@@ -14572,6 +14572,11 @@ static nsvcd__interval nsvcd__interval_of_arc(nsvcd__proof *p, uint32_t first, d
   return out;
 }
 
+// Does any point leave its chord?
+static int nsvcd__may_bend(const nsvcd__interval *over) {
+  return over->bend > 0 || over->origin_bend > 0;
+}
+
 // The axis in the moving body's frame, unit.
 static nsvcd__f3 nsvcd__own_axis(const nsvcd__interval *over) {
   const nsvcd__f3 axis = nsvcd__mat3_apply_transpose(&over->start.rotation, over->axis);
@@ -14594,9 +14599,11 @@ static nsvcd__arm nsvcd__arm_of(nsvcd__f3 centre, float radius, nsvcd__f3 axis) 
   return out;
 }
 
-// Of a patch's pieces.
+// Of a patch's pieces; none where nothing bends.
 static nsvcd__arm nsvcd__patch_arm(const nsvcd__geometry *f, size_t patch,
                                    const nsvcd__interval *over) {
+  const nsvcd__arm none = {0, 0};
+  if (!nsvcd__may_bend(over)) return none;
   const float radius = nsvcd__body_r(f->body)[patch];
   return nsvcd__arm_of(nsvcd__patch_centre(f, patch), radius, nsvcd__own_axis(over));
 }
@@ -14617,6 +14624,7 @@ static float nsvcd__bend_of(const nsvcd__interval *over, nsvcd__arm arm) {
 //   |n.D x| <= |n.axis| |D^T axis| |x| + |n x axis| |D x|
 // and |n.d| is bounded in the same way, or with the heading in place of the axis.
 static float nsvcd__deviation_of(const nsvcd__interval *over, nsvcd__f3 n, nsvcd__arm arm) {
+  if (!nsvcd__may_bend(over)) return 0;
   const float along = fabsf(nsvcd__f3_dot(n, over->axis));
   const float across = nsvcd__f3_norm(nsvcd__f3_cross(n, over->axis));
   const float ahead = fabsf(nsvcd__f3_dot(n, over->heading));
@@ -15453,6 +15461,8 @@ typedef struct nsvcd__v_approach {
   nsvcd__v3 at_start, at_end;
   // the mean of the moving slab's normals at both ends, and half their difference
   nsvcd__v3 mean, turned;
+  // does any point leave its chord?
+  int may_bend;
   // of the moving body
   nsvcd__v scale;
   nsvcd__v_interval over;
@@ -15466,6 +15476,7 @@ typedef struct nsvcd__v_approach {
 // Along a plane's normal: the deviation of a moving point, and the clearance.
 NSVCD__INLINE nsvcd__v nsvcd__v_off(const nsvcd__v_approach *a, nsvcd__v3 plane) {
   const nsvcd__v allowed = nsvcd__v_plus(a->over.rounding, a->clearance);
+  if (!a->may_bend) return allowed;
   return nsvcd__v_add(allowed, nsvcd__v_deviation(&a->over, plane, a->radius));
 }
 
@@ -15488,6 +15499,8 @@ NSVCD__INLINE uint32_t nsvcd__v_separate(const nsvcd__v_approach *a, nsvcd__v3 p
 NSVCD__INLINE uint32_t nsvcd__v_separate_by_fixed(const nsvcd__v_approach *a) {
   const nsvcd__v_range fixed = {a->fixed.low, a->fixed.high};
   const nsvcd__v_range start = nsvcd__v_slab_range(&a->moving, a->at_start);
+  if (!a->may_bend)
+    return nsvcd__v_separate(a, a->fixed.normal, start, start, fixed, a->fixed_off);
   const nsvcd__v_range end = nsvcd__v_slab_range(&a->moving, a->at_end);
   return nsvcd__v_separate(a, a->fixed.normal, start, end, fixed, a->fixed_off);
 }
@@ -15518,6 +15531,7 @@ static uint32_t nsvcd__slabs_meet(const nsvcd__proof *p, const nsvcd__interval *
   a.fixed = nsvcd__v_slab_set(&fixed);
   a.at_start = nsvcd__v3_set(nsvcd__mat3_apply_transpose(from, fixed.normal));
   a.at_end = nsvcd__v3_set(nsvcd__mat3_apply_transpose(to, fixed.normal));
+  a.may_bend = nsvcd__may_bend(over);
   a.scale = nsvcd__v_set(p->arcs.motion->scale);
   a.over = nsvcd__v_interval_set(over);
   a.clearance = nsvcd__clearance(&p->goal);
@@ -15554,6 +15568,7 @@ static NSVCD__NOINLINE void nsvcd__separate_groups(const nsvcd__proof *p, nsvcd_
       nsvcd__slab_at(p->moving.group_slabs, nsvcd__group_slots(moving->padded), g);
   nsvcd__v_approach a;
   a.moving = nsvcd__v_slab_set(&own);
+  a.may_bend = 1;  // in some segment
   a.scale = nsvcd__v_set(q->scale);
   a.clearance = nsvcd__clearance(&p->goal);
   a.radius = nsvcd__group_extent(moving, g);
@@ -16694,10 +16709,10 @@ static uint32_t nsvcd__lanes_on_ray(nsvcd__block *block, const nsvcd__ray *ray, 
       const nsvcd__v volume = nsvcd__v3_dot(across, to_corner);
       least = nsvcd__v_min(least, volume);
       most = nsvcd__v_max(most, volume);
-      longest = nsvcd__v_max(longest, nsvcd__v3_norm(across));
+      longest = nsvcd__v_max(longest, nsvcd__v3_dot(across, across));
     }
     const nsvcd__v allowed =
-        nsvcd__v_fma(nsvcd__v_set(margin), longest, nsvcd__v_set(rounding));
+        nsvcd__v_fma(nsvcd__v_set(margin), nsvcd__v_sqrt(longest), nsvcd__v_set(rounding));
     missed |= (nsvcd__v_lt(least, nsvcd__v_negate(allowed)) & nsvcd__v_lt(allowed, most)) << l;
   }
   return nsvcd__block_lanes(block) & ~missed;
@@ -17118,6 +17133,7 @@ static void nsvcd__way_set(nsvcd__solver *w, nsvcd__search *q, size_t s, nsvcd__
   out->at_start = nsvcd__vmat3_set(from);
   out->at_end = nsvcd__vmat3_set(to);
   a->moving = nsvcd__v_slab_set(&own);
+  a->may_bend = nsvcd__may_bend(over);
   a->scale = nsvcd__v_set(q->scale);
   a->over = nsvcd__v_interval_set(over);
   a->clearance = nsvcd__clearance(&p->goal);
@@ -19251,6 +19267,7 @@ static void nsvcd__record(const nsvcd__task *task, nsvcd__tape *tape) {
 #define nsvcd__lowest_over NSVCD__AT(lowest_over)
 #define nsvcd__matters NSVCD__AT(matters)
 #define nsvcd__may_be_close NSVCD__AT(may_be_close)
+#define nsvcd__may_bend NSVCD__AT(may_bend)
 #define nsvcd__meet NSVCD__AT(meet)
 #define nsvcd__meet_in NSVCD__AT(meet_in)
 #define nsvcd__meet_members NSVCD__AT(meet_members)

@@ -82,10 +82,10 @@ static uint32_t nsvcd__lanes_on_ray(nsvcd__block *block, const nsvcd__ray *ray, 
       const nsvcd__v volume = nsvcd__v3_dot(across, to_corner);
       least = nsvcd__v_min(least, volume);
       most = nsvcd__v_max(most, volume);
-      longest = nsvcd__v_max(longest, nsvcd__v3_norm(across));
+      longest = nsvcd__v_max(longest, nsvcd__v3_dot(across, across));
     }
     const nsvcd__v allowed =
-        nsvcd__v_fma(nsvcd__v_set(margin), longest, nsvcd__v_set(rounding));
+        nsvcd__v_fma(nsvcd__v_set(margin), nsvcd__v_sqrt(longest), nsvcd__v_set(rounding));
     missed |= (nsvcd__v_lt(least, nsvcd__v_negate(allowed)) & nsvcd__v_lt(allowed, most)) << l;
   }
   return nsvcd__block_lanes(block) & ~missed;

@@ -111,6 +111,7 @@ static void nsvcd__way_set(nsvcd__solver *w, nsvcd__search *q, size_t s, nsvcd__
   out->at_start = nsvcd__vmat3_set(from);
   out->at_end = nsvcd__vmat3_set(to);
   a->moving = nsvcd__v_slab_set(&own);
+  a->may_bend = nsvcd__may_bend(over);
   a->scale = nsvcd__v_set(q->scale);
   a->over = nsvcd__v_interval_set(over);
   a->clearance = nsvcd__clearance(&p->goal);

@@ -52,6 +52,11 @@ static nsvcd__interval nsvcd__interval_of_arc(nsvcd__proof *p, uint32_t first, d
   return out;
 }
 
+// Does any point leave its chord?
+static int nsvcd__may_bend(const nsvcd__interval *over) {
+  return over->bend > 0 || over->origin_bend > 0;
+}
+
 // The axis in the moving body's frame, unit.
 static nsvcd__f3 nsvcd__own_axis(const nsvcd__interval *over) {
   const nsvcd__f3 axis = nsvcd__mat3_apply_transpose(&over->start.rotation, over->axis);
@@ -74,9 +79,11 @@ static nsvcd__arm nsvcd__arm_of(nsvcd__f3 centre, float radius, nsvcd__f3 axis) 
   return out;
 }
 
-// Of a patch's pieces.
+// Of a patch's pieces; none where nothing bends.
 static nsvcd__arm nsvcd__patch_arm(const nsvcd__geometry *f, size_t patch,
                                    const nsvcd__interval *over) {
+  const nsvcd__arm none = {0, 0};
+  if (!nsvcd__may_bend(over)) return none;
   const float radius = nsvcd__body_r(f->body)[patch];
   return nsvcd__arm_of(nsvcd__patch_centre(f, patch), radius, nsvcd__own_axis(over));
 }
@@ -97,6 +104,7 @@ static float nsvcd__bend_of(const nsvcd__interval *over, nsvcd__arm arm) {
 //   |n.D x| <= |n.axis| |D^T axis| |x| + |n x axis| |D x|
 // and |n.d| is bounded in the same way, or with the heading in place of the axis.
 static float nsvcd__deviation_of(const nsvcd__interval *over, nsvcd__f3 n, nsvcd__arm arm) {
+  if (!nsvcd__may_bend(over)) return 0;
   const float along = fabsf(nsvcd__f3_dot(n, over->axis));
   const float across = nsvcd__f3_norm(nsvcd__f3_cross(n, over->axis));
   const float ahead = fabsf(nsvcd__f3_dot(n, over->heading));
