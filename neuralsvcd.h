@@ -11172,8 +11172,8 @@ static float nsvcd__interval_gap(const nsvcd__motion *m, uint32_t from, uint32_t
 #define NSVCD__FINER 2
 // Segments that are searched together where the first contact is sought.
 #define NSVCD__IN_ORDER 4
-// Segments, at most, of a motion whose body, if it is one group, is searched in the order in which it
-// comes to patches.
+// Segments, at most, of a motion whose body, if it is one group, is searched in the order in which
+// it comes to patches.
 #define NSVCD__FEW_SEGMENTS 4
 // If that exhausts its budget, the motion is proven part by part: the length of the first one, in
 // segments; and the budget of a part besides eight times that of the part before.
@@ -14395,7 +14395,7 @@ static nsvcd__slerp nsvcd__slerp_in(const nsvcd__track *track, uint32_t first, u
   return out;
 }
 
-// Does the moving body turn, or the fixed one move? If not, the rotation is always that at the start.
+// Does the moving body turn, or the fixed one move? If not, the rotation stays that at the start.
 static int nsvcd__turns(const nsvcd__arc *arc) {
   return arc->turn > 0 || arc->fixed_moves;
 }
@@ -15873,8 +15873,8 @@ static nsvcd__f3 nsvcd__point_of(const nsvcd__geometry *f, size_t patch,
                       centre.z + step * (float)stored.z[i]);
 }
 
-// All points of a patch that has few. Corners name them in no order, and which kind each one is would
-// be mispredicted.
+// All points of a patch that has few. Corners name them in no order, and which kind each one is
+// would be mispredicted.
 #define NSVCD__FEW_POINTS 48
 static void nsvcd__few_points(const nsvcd__geometry *f, size_t patch,
                               nsvcd__patch_points points, float (*out)[NSVCD__FEW_POINTS]) {
@@ -16856,10 +16856,10 @@ static nsvcd__d3 nsvcd__way_out(const nsvcd__geometry *f, nsvcd__d3 point,
 
 // Does the body enclose a point of its frame, farther from its surface than rounding? Rays tell, in
 // directions that no mesh is likely to be aligned with. The first one goes to the side of the body
-// that the point is on, and to a face of its box that is near. One ray is enough where all surfaces are closed. Of what is nearly a solid,
-// the majority of the rays tells whether its winding number is more than a half: then the point is
-// not known to be outside. (Difference from Jacobson 2013: rays, not a sum of solid angles.) unit:
-// of the body's frame.
+// that the point is on, and more to the face of its box that is near there. One ray is enough where
+// all surfaces are closed. Of what is nearly a solid, the majority of the rays tells whether its
+// winding number is more than a half: then the point is not known to be outside. (Difference from
+// Jacobson 2013: rays, not a sum of solid angles.) unit: of the body's frame.
 static int nsvcd__is_enclosed(nsvcd__solver *w, const nsvcd__geometry *f, double unit,
                               nsvcd__d3 point) {
   nsvcd__proof *p = &w->p;
@@ -17023,8 +17023,8 @@ static NSVCD__NOINLINE int nsvcd__is_contained_at_start(nsvcd__solver *w) {
 #endif  // NSVCD_NO_PROOF
 
 // ------------------------------------------------------------------------------- separate/in_order
-// In: a moving body of one group, and a motion that has been cut into few segments. Out: the same as
-// the loop's: the patch pairs of each segment, in the order in which the body comes to them.
+// In: a moving body of one group, and a motion that has been cut into few segments. Out: the same
+// as the loop's: the patch pairs of each segment, in the order in which the body comes to them.
 //
 // Most casts are of this kind: rays, spheres, capsules, boxes. The tree of the fixed body is
 // descended, 16 spheres at a time, along the chord of the group's sphere. What it comes to first is

@@ -15,8 +15,8 @@ static nsvcd__f3 nsvcd__point_of(const nsvcd__geometry *f, size_t patch,
                       centre.z + step * (float)stored.z[i]);
 }
 
-// All points of a patch that has few. Corners name them in no order, and which kind each one is would
-// be mispredicted.
+// All points of a patch that has few. Corners name them in no order, and which kind each one is
+// would be mispredicted.
 #define NSVCD__FEW_POINTS 48
 static void nsvcd__few_points(const nsvcd__geometry *f, size_t patch,
                               nsvcd__patch_points points, float (*out)[NSVCD__FEW_POINTS]) {

@@ -229,10 +229,10 @@ static nsvcd__d3 nsvcd__way_out(const nsvcd__geometry *f, nsvcd__d3 point,
 
 // Does the body enclose a point of its frame, farther from its surface than rounding? Rays tell, in
 // directions that no mesh is likely to be aligned with. The first one goes to the side of the body
-// that the point is on, and to a face of its box that is near. One ray is enough where all surfaces are closed. Of what is nearly a solid,
-// the majority of the rays tells whether its winding number is more than a half: then the point is
-// not known to be outside. (Difference from Jacobson 2013: rays, not a sum of solid angles.) unit:
-// of the body's frame.
+// that the point is on, and more to the face of its box that is near there. One ray is enough where
+// all surfaces are closed. Of what is nearly a solid, the majority of the rays tells whether its
+// winding number is more than a half: then the point is not known to be outside. (Difference from
+// Jacobson 2013: rays, not a sum of solid angles.) unit: of the body's frame.
 static int nsvcd__is_enclosed(nsvcd__solver *w, const nsvcd__geometry *f, double unit,
                               nsvcd__d3 point) {
   nsvcd__proof *p = &w->p;

@@ -1,5 +1,5 @@
-// In: a moving body of one group, and a motion that has been cut into few segments. Out: the same as
-// the loop's: the patch pairs of each segment, in the order in which the body comes to them.
+// In: a moving body of one group, and a motion that has been cut into few segments. Out: the same
+// as the loop's: the patch pairs of each segment, in the order in which the body comes to them.
 //
 // Most casts are of this kind: rays, spheres, capsules, boxes. The tree of the fixed body is
 // descended, 16 spheres at a time, along the chord of the group's sphere. What it comes to first is

@@ -33,7 +33,7 @@ static nsvcd__slerp nsvcd__slerp_in(const nsvcd__track *track, uint32_t first, u
   return out;
 }
 
-// Does the moving body turn, or the fixed one move? If not, the rotation is always that at the start.
+// Does the moving body turn, or the fixed one move? If not, the rotation stays that at the start.
 static int nsvcd__turns(const nsvcd__arc *arc) {
   return arc->turn > 0 || arc->fixed_moves;
 }
