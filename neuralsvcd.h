@@ -17178,17 +17178,16 @@ static NSVCD__NOINLINE void nsvcd__front_fill(nsvcd__solver *w, nsvcd__way *way,
 // Takes the sphere that is met first off a front, and returns its lane; LANES: none is left, or all
 // after what matters.
 static size_t nsvcd__front_next(const nsvcd__proof *p, nsvcd__front *front) {
-  size_t best = NSVCD__LANES;
-  float earliest = HUGE_VALF;
-  for (uint32_t left = front->left; left; left &= left - 1) {
+  if (!front->left) return NSVCD__LANES;
+  size_t first = nsvcd__low_bit(front->left);
+  for (uint32_t left = front->left & (front->left - 1); left; left &= left - 1) {
     const size_t l = nsvcd__low_bit(left);
-    if (!(front->from[l] < earliest)) continue;
-    earliest = front->from[l];
-    best = l;
+    if (front->from[l] < front->from[first]) first = l;
   }
-  if (front->start + (double)earliest * front->length >= p->known.end) best = NSVCD__LANES;
-  front->left &= best < NSVCD__LANES ? ~((uint32_t)1 << best) : 0;
-  return best;
+  const double tick = front->start + (double)front->from[first] * front->length;
+  const int matters = !(tick >= p->known.end);
+  front->left &= matters ? ~((uint32_t)1 << first) : 0;
+  return matters ? first : NSVCD__LANES;
 }
 
 // Adds the patch pairs of the moving group and the patches of a front, and takes them.

@@ -49,13 +49,13 @@ groups' spheres over the first half|for (size_t k = 0; k < count + !count; k++) 
 held plane without slack|g->margins[j] * length + highest;|highest;
 heights over another plane|above->plane != memo->plane \|\| above->key != key|above->key != key
 pair of coarse copies as if they were the meshes|pair.rounding + nsvcd__off_meshes(p) + moved;|pair.rounding + moved;
-slabs on the way without slack|a->fixed_off = nsvcd__v_off(a, a->fixed.normal);|a->fixed_off = nsvcd__v_set(0);
+level: slabs on the way without slack|a->fixed_off = nsvcd__v_off(a, a->fixed.normal);|a->fixed_off = nsvcd__v_set(0);
 slabs on the way at the start only|if (!a->may_bend) return nsvcd__v_separate(a, a->fixed.normal, start, start|if (1) return nsvcd__v_separate(a, a->fixed.normal, start, start
 what turns does not bend|return over->bend > 0 \|\| over->origin_bend > 0;|return over->origin_bend > 0;
 rotations that stay|return arc->turn > 0 \|\| arc->fixed_moves;|return arc->fixed_moves;
 level: what is ahead is met when it is nearest|nsvcd__v_sub(nearest, nsvcd__v_mul(sum, per_length))|nearest
 level: fronts of the way before it was clipped|nsvcd__min((double)q->begin[s + 1], w->clipped_end) - out->start;|(double)q->begin[s + 1] - out->start;
-level: the first chunk of spheres alone|first < slots; first += NSVCD__GROUP) {\n    size_t level = top;|first < NSVCD__GROUP; first += NSVCD__GROUP) {\n    size_t level = top;
+the first chunk of spheres alone|first < slots; first += NSVCD__GROUP) {\n    size_t level = top;|first < NSVCD__GROUP; first += NSVCD__GROUP) {\n    size_t level = top;
 rows left after a contact|const int is_last = !(lanes & (lanes - 1))|const int is_last = 1 \|\| !(lanes & (lanes - 1))
 small meshes enclose nothing|outer->open \|\| outer->triangles < 2|outer->open \|\| outer->triangles < 13
 round: tangents from the other side|const double fall = -nsvcd__d3_dot(p->separating, moved);|const double fall = nsvcd__d3_dot(p->separating, moved);

@@ -812,6 +812,33 @@ static double level_cast_gap(const level_caster *caster, const oracle_pose *way,
   return least - caster->round;
 }
 
+// When a corner of the skeleton's first triangle, which goes straight, first passes through a triangle
+// of the level: beyond 1, never. All triangles are tried.
+static double level_first_crossing(const level_caster *caster, const oracle_pose *way) {
+  const oracle_mesh *level = &level_shared()->level.oracle;
+  double first = HUGE_VAL;
+  for (int k = 0; k < 2; k++) {
+    double from[3], to[3], travel[3];
+    oracle_transform(&way[0], caster->skeleton.triangles[0].v[k], from);
+    oracle_transform(&way[1], caster->skeleton.triangles[0].v[k], to);
+    oracle_sub(to, from, travel);
+    for (size_t i = 0; i < level->triangle_count; i++) {
+      const oracle_triangle *t = &level->triangles[i];
+      double d[3], ahead[3], at[3];
+      oracle_sub(from, t->v[0], d);
+      oracle_sub(to, t->v[0], ahead);
+      const double before = oracle_dot(t->normal, d);
+      const double after = oracle_dot(t->normal, ahead);
+      if (before * after >= 0) continue;
+      const double u = before / (before - after);
+      if (u >= first) continue;
+      for (int j = 0; j < 3; j++) at[j] = from[j] + u * travel[j];
+      if (oracle_projects_inside(t, at)) first = u;
+    }
+  }
+  return first;
+}
+
 // A way, straight or with a turn, from near the ground, perhaps from a contact or of no length.
 static void level_any_cast(shapes_rng *rng, oracle_pose *way) {
   const double length = shapes_pick(rng, 10) ? pow(10, shapes_uniform(rng, -3, 1)) : 0;
@@ -856,6 +883,9 @@ static void level_casts_are_those_of_the_oracle(void) {
       // what is proven free is beyond the clearance, to the rounding of the poses
       if (a.verdict == NSVCD_FREE || a.time.low > 0)
         CHECK_GE(level_cast_gap(&caster, way, 0, (double)a.time.low, 12), clearance - 1e-5);
+      const int is_straight = !memcmp(path[0].rotation, path[1].rotation, sizeof path[0].rotation);
+      if (is_straight && (a.verdict == NSVCD_FREE || a.time.low > 0))
+        CHECK_LE((double)a.time.low, level_first_crossing(&caster, way) + 1e-5);
       if (a.verdict != NSVCD_HIT || a.inside) continue;
       const double at = (double)a.time.high;
       CHECK_LE(level_cast_gap(&caster, way, at, at, 0), clearance + 1e-5);
