@@ -754,7 +754,7 @@ static void level_winding_numbers_are_those_of_the_patches(void) {
 
 // ---- casts: small bodies, which are searched in the order in which they come to things
 
-enum { CAST_RAY, CAST_SPHERE, CAST_CAPSULE, CAST_BOX, CASTS };
+enum { CAST_RAY, CAST_SPHERE, CAST_CAPSULE, CAST_BOX, CAST_MUG, CASTS };
 
 // A body, and the oracle's mesh of its skeleton.
 typedef struct level_caster {
@@ -767,7 +767,7 @@ static level_caster level_caster_make(int kind) {
   static const float ends[2][3] = {{0, 0.1f, -0.3f}, {0, 0, 0.3f}};
   static const float half[3] = {0.1f, 0.15f, 0.05f};
   static const uint32_t line[3] = {0, 1, 1};
-  static const double round[CASTS] = {5e-4, 0.05, 0.1, 0};
+  static const double round[CASTS] = {5e-4, 0.05, 0.1, 0, 0};
   const size_t count = kind == CAST_CAPSULE ? 2 : 1;
   double points[6] = {0};
   level_caster out;
@@ -779,15 +779,18 @@ static level_caster level_caster_make(int kind) {
   if (kind < CAST_CAPSULE) CHECK_EQ(nsvcd_encode_sphere(radius, NULL, &out.body), NSVCD_OK);
   if (kind == CAST_CAPSULE)
     CHECK_EQ(nsvcd_encode_capsule(ends[0], ends[1], radius, NULL, &out.body), NSVCD_OK);
-  if (kind == CAST_BOX) {
+  if (kind >= CAST_BOX) {
     shapes_mesh shape;
     memset(&shape, 0, sizeof shape);
-    shapes_box(&shape, 0.2, 0.3, 0.1, 1);
+    if (kind == CAST_BOX) shapes_box(&shape, 0.2, 0.3, 0.1, 1);
+    if (kind == CAST_MUG) shapes_mug(&shape, 0.1, 0.2, 0.01, 24);
     nsvcd_mesh mesh = mesh_of(&shape);
     CHECK_EQ(oracle_mesh_init(&out.skeleton, shape.positions, shape.vertices, shape.indices,
                               shape.triangles, 1),
              1);
-    CHECK_EQ(nsvcd_encode_box(half, 0, NULL, &out.body), NSVCD_OK);
+    if (kind == CAST_BOX) CHECK_EQ(nsvcd_encode_box(half, 0, NULL, &out.body), NSVCD_OK);
+    if (kind == CAST_MUG)
+      CHECK_EQ(nsvcd_encode(&mesh, NULL, NULL, NULL, 0, &out.body), NSVCD_OK);
     nsvcd_mesh_free(&mesh, NULL);
     shapes_free(&shape);
   } else {
@@ -881,8 +884,17 @@ static void level_casts_are_those_of_the_oracle(void) {
       frees += a.verdict == NSVCD_FREE;
       undecided += a.verdict == NSVCD_UNDECIDED;
       // what is proven free is beyond the clearance, to the rounding of the poses
-      if (a.verdict == NSVCD_FREE || a.time.low > 0)
-        CHECK_GE(level_cast_gap(&caster, way, 0, (double)a.time.low, 12), clearance - 1e-5);
+      double travel[3];
+      oracle_sub(way[1].position, way[0].position, travel);
+      const double length = oracle_length(travel);
+      const double low = (double)a.time.low;
+      if (a.verdict == NSVCD_FREE || low > 0) {
+        CHECK_GE(level_cast_gap(&caster, way, 0, low, 12), clearance - 1e-5);
+        const double since = length > 0 ? fmax(0, low - 0.02 / length) : 0;
+        // surfaces that meet are at distance 0
+        CHECK_GE(level_cast_gap(&caster, way, since, low * (1 - 1e-6), 4),
+                 caster.round > 0 ? -1e-7 : 1e-12);
+      }
       const int is_straight = !memcmp(path[0].rotation, path[1].rotation, sizeof path[0].rotation);
       if (is_straight && (a.verdict == NSVCD_FREE || a.time.low > 0))
         CHECK_LE((double)a.time.low, level_first_crossing(&caster, way) + 1e-5);
@@ -890,10 +902,8 @@ static void level_casts_are_those_of_the_oracle(void) {
       const double at = (double)a.time.high;
       CHECK_LE(level_cast_gap(&caster, way, at, at, 0), clearance + 1e-5);
       if (q.ask != NSVCD_ASK_FIRST || a.why) continue;
-      double travel[3];
-      oracle_sub(way[1].position, way[0].position, travel);
-      const double moved = (at - (double)a.time.low) * oracle_length(travel);
-      CHECK_LE(moved, (double)to * 1.001 + 2e-5);
+      // a body that turns moves more
+      if (is_straight) CHECK_LE((at - low) * length, (double)to * 1.001 + 2e-5);
     }
     oracle_mesh_free(&caster.skeleton);
     nsvcd_body_free(caster.body, NULL);
