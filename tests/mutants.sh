@@ -54,9 +54,7 @@ slabs on the way at the start only|if (!a->may_bend) return nsvcd__v_separate(a,
 what turns does not bend|return over->bend > 0 \|\| over->origin_bend > 0;|return over->origin_bend > 0;
 rotations that stay|return arc->turn > 0 \|\| arc->fixed_moves;|return arc->fixed_moves;
 level: what is ahead is met when it is nearest|nsvcd__v_sub(nearest, nsvcd__v_mul(sum, per_length))|nearest
-level: fronts of the way before it was clipped|nsvcd__min((double)q->begin[s + 1], w->clipped_end) - out->start;|(double)q->begin[s + 1] - out->start;
-the first chunk of spheres alone|first < slots; first += NSVCD__GROUP) {\n    size_t level = top;|first < NSVCD__GROUP; first += NSVCD__GROUP) {\n    size_t level = top;
-level: rows left after a contact|const int is_last = !(lanes & (lanes - 1))|const int is_last = 1 \|\| !(lanes & (lanes - 1))
+level: the first chunk of spheres alone|first < slots; first += NSVCD__GROUP) {\n    size_t level = top;|first < NSVCD__GROUP; first += NSVCD__GROUP) {\n    size_t level = top;
 small meshes enclose nothing|outer->open \|\| outer->triangles < 2|outer->open \|\| outer->triangles < 13
 round: tangents from the other side|const double fall = -nsvcd__d3_dot(p->separating, moved);|const double fall = nsvcd__d3_dot(p->separating, moved);
 round: tangents a little too far|const double until = fall > 0 ? nsvcd__min(end, at + room / fall) : end;|const double until = fall > 0 ? nsvcd__min(end, at + above / fall) : end;
