@@ -47,7 +47,6 @@ static nsvcd__outcome nsvcd__resolve_row(nsvcd__solver *w, size_t l, nsvcd__bloc
   const size_t i = w->blocks.moving.patch;
   const size_t j = fixed->patch;
   const float errors = nsvcd__errors_of(p, i, j);
-  nsvcd__outcome outcome = NSVCD__DONE;
   p->work++;
   uint32_t met = nsvcd__row_left(w, l, fixed, margin);
   for (; met; met &= met - 1) {
@@ -66,12 +65,12 @@ static nsvcd__outcome nsvcd__resolve_row(nsvcd__solver *w, size_t l, nsvcd__bloc
     const size_t b = fixed->first + nsvcd__low_bit(met);
     const nsvcd__triangle_pair pair = nsvcd__pair_of(p, i, j, a, b);
     const nsvcd__outcome one = nsvcd__resolve_pair(p, &pair, u0, u1);
+    // where the question shrank, the pair is resolved for what is left of it
     if (one != NSVCD__DONE && one != NSVCD__SHRUNK) return one;
-    if (one == NSVCD__SHRUNK) outcome = one;
     if (p->parts > patience) return NSVCD__TOO_LONG;
     p->shared = nsvcd__d3_distance2(p->separating, before) > 0 ? 0 : p->shared + 1;
   }
-  return outcome;
+  return NSVCD__DONE;
 }
 
 // All triangle pairs of patches i and j over an interval from u0 to u1 of the arc.
@@ -112,11 +111,7 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_triangles(nsvcd__solver *w,
           const nsvcd__outcome row = nsvcd__resolve_row(w, nsvcd__low_bit(lanes), fixed, arm,
                                                         margin, u0, u1, patience);
           if (row == NSVCD__ALL_DONE) return NSVCD__DONE;
-          // the question shrank with the last row: nothing is left to be asked again
-          const int is_last = !(lanes & (lanes - 1)) && n + 1 == w->blocks.window &&
-                              a + NSVCD__LANES >= moving_end &&
-                              b + NSVCD__WINDOW * NSVCD__LANES >= fixed_end;
-          if (row != NSVCD__DONE && !(row == NSVCD__SHRUNK && is_last)) return row;
+          if (row != NSVCD__DONE) return row;
         }
       }
     }
