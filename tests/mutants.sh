@@ -47,6 +47,13 @@ groups' spheres over the first half|for (size_t k = 0; k < count + !count; k++) 
 held plane without slack|g->margins[j] * length + highest;|highest;
 heights over another plane|above->plane != memo->plane \|\| above->key != key|above->key != key
 pair of coarse copies as if they were the meshes|pair.rounding + nsvcd__off_meshes(p) + moved;|pair.rounding + moved;
+level: slabs on the way without slack|a->fixed_off = nsvcd__v_off(a, a->fixed.normal);|a->fixed_off = nsvcd__v_set(0);
+slabs on the way at the start only|if (!a->may_bend) return nsvcd__v_separate(a, a->fixed.normal, start, start|if (1) return nsvcd__v_separate(a, a->fixed.normal, start, start
+what turns does not bend|return over->bend > 0 \|\| over->origin_bend > 0;|return over->origin_bend > 0;
+rotations that stay|return arc->turn > 0 \|\| arc->fixed_moves;|return arc->fixed_moves;
+level: what is ahead is met when it is nearest|nsvcd__v_sub(nearest, nsvcd__v_mul(sum, per_length))|nearest
+level: the first chunk of spheres alone|first < slots; first += NSVCD__GROUP) {\n    size_t level = top;|first < NSVCD__GROUP; first += NSVCD__GROUP) {\n    size_t level = top;
+small meshes enclose nothing|outer->open \|\| outer->triangles < 2|outer->open \|\| outer->triangles < 13
 round: tangents from the other side|const double fall = -nsvcd__d3_dot(p->separating, moved);|const double fall = nsvcd__d3_dot(p->separating, moved);
 round: tangents a little too far|const double until = fall > 0 ? nsvcd__min(end, at + room / fall) : end;|const double until = fall > 0 ? nsvcd__min(end, at + above / fall) : end;
 doubts forgotten|    nsvcd__keep_unresolved(p, pair, u0, u1);\n    return NSVCD__DONE;|    return NSVCD__DONE;
@@ -80,7 +87,7 @@ rays without rounding|const float rounding = NSVCD__ROUNDING * extent * f->body-
 rays past half the groups|while (!sum.unclear \&\& nsvcd__traversal_next(\&groups, \&g)) {|while (!sum.unclear \&\& nsvcd__traversal_next(\&groups, \&g)) {\n    if (g % 2) continue;
 block's boxes at the start only|low = nsvcd__v3_min(low, corner);\n      high = nsvcd__v3_max(high, corner);|if (k >= 3) continue;\n      low = nsvcd__v3_min(low, corner);\n      high = nsvcd__v3_max(high, corner);
 last triangle skipped|size_t patience) {\n  nsvcd__proof *p = \&w->p;\n  const size_t moving_end = p->moving.first_triangle[i + 1];|size_t patience) {\n  nsvcd__proof *p = \&w->p;\n  const size_t moving_end = p->moving.first_triangle[i + 1] - 1;
-containment one way|if (outer->open) return 0;\n  const int is_one|if (outer->open + (e->inner != \&w->p.moving)) return 0;\n  const int is_one
+containment one way|if (outer->open \|\| outer->triangles < 2) return 0;|if (outer->open + (e->inner != \&w->p.moving)) return 0;
 long: an interval passed over|if (is_resolved) m->from = until;|if (is_resolved) m->from = until;\n  if (is_resolved \&\& arcs == 1 \&\& until < m->ticks) m->from = nsvcd__next_keyframe(m, until);
 long: a try in vain is believed|is_resolved \|\| !is_try, p->work - before|1, p->work - before
 long: gaps by the first pose|part.count = nsvcd__pose_before(track, until - 1) + 2 - first;|part.count = 1;
