@@ -1425,14 +1425,14 @@ typedef struct nsvcd__resident {
   uint32_t next_free;
   // which of a step's movers it was last
   uint32_t mover;
-  // of that step: the driven body that carries it; that it is in the way of what this one carries;
-  // or that it cannot be carried
+  // during that step: the driven body that carries it; that it is in the way of what this one
+  // carries; or that it cannot be carried
   uint32_t carrier, joins;
   int stays;
   // when its way along was proven to be free, on the world's clock; metres and radians a second of
-  // it
+  // it; and its speed besides
   uint64_t proven;
-  nsvcd__d3 goes, turns;
+  nsvcd__d3 goes, turns, slips;
 } nsvcd__resident;
 
 // One of a step's movers, and how high it is.
@@ -2317,6 +2317,12 @@ static nsvcd__d3 nsvcd__driven_speed(const nsvcd__slide *s, size_t id, nsvcd__d3
   return nsvcd__d3_scale(moved, 1 / (s->left * s->seconds));
 }
 
+// How fast what is carried slips along a contact: it has moved already, and only friction sees that.
+static nsvcd__d3 nsvcd__slip_of(const nsvcd__resident *r, nsvcd__d3 normal) {
+  if (!r->carrier) return nsvcd__d3_of(0, 0, 0);
+  return nsvcd__d3_fma(-nsvcd__d3_dot(r->slips, normal), normal, r->slips);
+}
+
 // Finds all contacts at the pose now, behind those that have pushed, and what they ask for.
 static void nsvcd__slide_look(nsvcd__slide *s) {
   const nsvcd__d3 pivot = nsvcd__pivot_at(s);
@@ -2340,7 +2346,9 @@ static void nsvcd__slide_look(nsvcd__slide *s) {
     memset(h, 0, sizeof *h);
     h->normal = nsvcd__d3_load(c->normal);
     const nsvcd__d3 on_other = nsvcd__d3_load(c->point);
-    h->speed = nsvcd__driven_speed(s, s->contacts[k].body, on_other);
+    const nsvcd__d3 driven = nsvcd__driven_speed(s, s->contacts[k].body, on_other);
+    h->speed = nsvcd__d3_add(
+        driven, nsvcd__slip_of(&s->ask.world->residents[s->contacts[k].body], h->normal));
     h->arm = nsvcd__d3_sub(nsvcd__d3_fma((double)c->gap, h->normal, on_other), pivot);
     h->lacks = s->clearance + 0.5 * s->margin - (double)c->gap;
     h->least = nsvcd__min(s->clearance + s->margin - (double)c->gap, 0) / time;
@@ -3031,7 +3039,7 @@ static void nsvcd__share_momentum(const nsvcd__crowd *crowd, nsvcd_world_mover *
 // at the speed that it has besides, and gets that of the lift again.
 //
 // Going along is proven as any way is: against all that rests, and all that is driven or carried
-// meanwhile. A mover that is in the way is carried too. Who cannot go along stays, as does whoever
+// meanwhile. A mover that is in the way is carried too, as is what a lift comes up into. Who cannot go along stays, as does whoever
 // stands on it: they slide while the lift moves, as those do who stand on nothing driven.
 
 // radians: what turns by more in a frame carries nobody
@@ -3039,7 +3047,7 @@ static void nsvcd__share_momentum(const nsvcd__crowd *crowd, nsvcd_world_mover *
 // metres a second: what carries a point as fast as another to this does so as one with it
 #define NSVCD__CARRIES_SAME 1e-3
 // of the clearance: how near those who are carried may come to what moves with them, by rounding
-#define NSVCD__CARRIES_WITHIN 0.5
+#define NSVCD__CARRIES_WITHIN 0.5f
 // rounds in which those who stay are found; then all stay
 #define NSVCD__CARRY_ROUNDS 20
 
@@ -3116,22 +3124,48 @@ static void nsvcd__carry(const nsvcd__crowd *crowd, nsvcd_world_mover *m, uint32
   if (!goes) (void)nsvcd__world_place(world, m->id, &stays, 0);
 }
 
+// Turns a mover into one who asks whether it is free.
+static nsvcd_result nsvcd__carried_asker(const nsvcd__crowd *crowd, const nsvcd_world_mover *m,
+                                         void *workspace, size_t size, nsvcd__asker *q) {
+  const nsvcd__resident *r = &crowd->world->residents[m->id];
+  nsvcd_world_question asked;
+  memset(&asked, 0, sizeof asked);
+  asked.self = m->id;
+  asked.question.clearance = (float)nsvcd__clearance_of(&m->how, r->shape.reach);
+  asked.question.work = m->how.work ? m->how.work : NSVCD_DEFAULT_SLIDE_WORK;
+  return nsvcd__asker_begin(crowd->world, &asked, workspace, size, q);
+}
+
+// What is driven up into a mover where it is lifts it, as what it stands on does; or nobody.
+static uint32_t nsvcd__lifter_of(const nsvcd__crowd *crowd, const nsvcd_world_mover *m,
+                                 void *workspace, size_t size, nsvcd_step_answer *out) {
+  const nsvcd__d3 centre = nsvcd__mover_centre(crowd, m);
+  uint32_t found = NSVCD_NOBODY;
+  nsvcd__asker q;
+  if (nsvcd__carried_asker(crowd, m, workspace, size, &q)) return found;
+  for (uint32_t id = 0; !found && (id = nsvcd__asker_next(&q, id)) != 0;) {
+    const nsvcd__resident *o = &crowd->world->residents[id];
+    const nsvcd__d3 goes = nsvcd__takes_along(crowd, o, centre);
+    nsvcd_answer answer;
+    if (o->carrier || !(nsvcd__d3_dot(goes, crowd->up) > 0.5 * nsvcd__d3_norm(goes))) continue;
+    if (nsvcd__ask_about(&q, id, &answer) && answer.verdict != NSVCD_FREE) found = id;
+  }
+  out->questions += q.questions;
+  out->work += q.work;
+  return found;
+}
+
 // Is the way on which a mover is carried free? What is known since neither of two has changed is
 // not asked again. If it is not, the mover stays, or what it meets is carried too.
 static int nsvcd__may_go_along(const nsvcd__crowd *crowd, const nsvcd_world_mover *m,
                                void *workspace, size_t size, nsvcd_step_answer *out) {
   nsvcd__asker q;
-  nsvcd_world_question asked;
   nsvcd_world *world = crowd->world;
   nsvcd__resident *r = &world->residents[m->id];
   const nsvcd_pose way[2] = {r->given.pose, r->to};
-  const double clearance = nsvcd__clearance_of(&m->how, r->shape.reach);
-  memset(&asked, 0, sizeof asked);
-  asked.self = m->id;
-  asked.question.clearance = (float)clearance;
-  asked.question.work = m->how.work ? m->how.work : NSVCD_DEFAULT_SLIDE_WORK;
-  r->stays = nsvcd__asker_begin(world, &asked, workspace, size, &q) != NSVCD_OK;
+  r->stays = nsvcd__carried_asker(crowd, m, workspace, size, &q) != NSVCD_OK;
   if (r->stays) return 0;
+  const float clearance = q.question.clearance;
   nsvcd__asker_goes(&q, way, 2);
   int is_free = 1;
   for (uint32_t id = 0; is_free && (id = nsvcd__asker_next(&q, id)) != 0;) {
@@ -3139,7 +3173,7 @@ static int nsvcd__may_go_along(const nsvcd__crowd *crowd, const nsvcd_world_move
     const uint64_t moved = r->moved > o->moved ? r->moved : o->moved;
     nsvcd_answer answer;
     if (r->proven >= moved || o->proven >= moved) continue;
-    q.question.clearance = (float)(clearance * (o->is_driven ? NSVCD__CARRIES_WITHIN : 1));
+    q.question.clearance = o->is_driven ? NSVCD__CARRIES_WITHIN * clearance : clearance;
     is_free = nsvcd__ask_about(&q, id, &answer) && answer.verdict == NSVCD_FREE;
     if (is_free) continue;
     const int may_join = nsvcd__mover_with(crowd, id) && !o->is_driven && !o->stays;
@@ -3165,7 +3199,9 @@ static void nsvcd__carry_all(const nsvcd__crowd *crowd, void *workspace, size_t 
       nsvcd__resident *r = &world->residents[m->id];
       if (r->is_driven && !r->carrier) continue;
       r->stays |= round >= NSVCD__CARRY_ROUNDS;
-      const uint32_t carrier = nsvcd__carrier_of(crowd, m);
+      uint32_t carrier = nsvcd__carrier_of(crowd, m);
+      if (!carrier && round == 0)
+        carrier = r->joins = nsvcd__lifter_of(crowd, m, workspace, size, out);
       if (carrier != r->carrier) nsvcd__carry(crowd, m, carrier);
     }
     for (size_t k = 0; k < crowd->count; k++) {
@@ -3177,7 +3213,21 @@ static void nsvcd__carry_all(const nsvcd__crowd *crowd, void *workspace, size_t 
   for (size_t k = 0; k < crowd->count; k++) {
     nsvcd__resident *r = &world->residents[crowd->movers[k].id];
     const nsvcd_pose to = r->to;
-    if (r->carrier) (void)nsvcd__world_place(crowd->world, crowd->movers[k].id, &to, 0);
+    const nsvcd_world_mover *m = &crowd->movers[k];
+    if (!r->carrier) continue;
+    (void)nsvcd__world_place(crowd->world, m->id, &to, 0);
+    if (!(m->how.mass > 0)) continue;
+    r->slips = nsvcd__d3_sub(nsvcd__d3_load(m->velocity.linear), r->goes);
+  }
+}
+
+static void nsvcd__end_carrying(const nsvcd_world *world) {
+  for (uint32_t id = 1; id <= world->count; id++) {
+    nsvcd__resident *r = &world->residents[id];
+    r->carrier = r->joins = NSVCD_NOBODY;
+    r->proven = 0;
+    r->stays = 0;
+    r->slips = nsvcd__d3_of(0, 0, 0);
   }
 }
 
@@ -3358,9 +3408,11 @@ static void nsvcd__grow_calm(const nsvcd__crowd *crowd, nsvcd_world_mover *m) {
 // Gives a mover what gravity adds to its speed, less what brakes it, as seen from what it stands
 // on.
 static void nsvcd__pull_and_brake(const nsvcd__crowd *crowd, nsvcd_world_mover *m) {
+  const int is_carried = crowd->world->residents[m->id].carrier != NSVCD_NOBODY;
   const int is_braked = m->answer.contact_count > 0 && m->how.mass > 0 && m->how.friction > 0;
-  const int is_slow =
-      is_braked && nsvcd__mover_speed(crowd, m) < NSVCD__NEARLY_QUIET * crowd->quiet;
+  // a lift that speeds up would hold by brakes what friction does not
+  const int is_slow = is_braked && !is_carried &&
+                      nsvcd__mover_speed(crowd, m) < NSVCD__NEARLY_QUIET * crowd->quiet;
   const double quiet = is_slow ? NSVCD__BRAKES_QUIET : 0;
   const double speed = is_braked ? nsvcd__max(NSVCD__BRAKES_SPEED, quiet) : 0;
   const double spin = is_braked ? nsvcd__max(NSVCD__BRAKES_SPIN, quiet) : 0;
@@ -3403,6 +3455,7 @@ static nsvcd_result nsvcd__step_mover(const nsvcd__crowd *crowd, nsvcd_world_mov
   if (is_thing) nsvcd__add_carried(none, turns, 1, &came);
   if (is_thing) nsvcd__add_carried(none, turns, 1, &m->velocity);
   nsvcd__share_momentum(crowd, m, &came, goes);
+  r->slips = is_thing ? nsvcd__d3_load(m->velocity.linear) : none;
   if (is_thing) nsvcd__add_carried(goes, none, 1, &m->velocity);
   out->awake++;
   out->caught += m->answer.caught != NSVCD_NOBODY;
@@ -3435,12 +3488,6 @@ NSVCDDEF nsvcd_result nsvcd_world_step(nsvcd_world *world, nsvcd_world_mover *mo
     if (was_woken || (m->asleep && nsvcd__is_disturbed(&crowd, m))) nsvcd__wake(m);
   }
   const int is_driven = nsvcd__wake_near_driven(&crowd);
-  for (size_t id = 1; id <= world->count; id++) {
-    nsvcd__resident *r = &world->residents[id];
-    r->carrier = r->joins = NSVCD_NOBODY;
-    r->stays = 0;
-    r->proven = 0;
-  }
   if (is_driven) nsvcd__carry_all(&crowd, workspace, workspace_size, &out);
   // who is carried slides when all that is driven has arrived
   for (int carried = 0; carried <= is_driven; carried++) {
@@ -3460,6 +3507,7 @@ NSVCDDEF nsvcd_result nsvcd_world_step(nsvcd_world *world, nsvcd_world_mover *mo
     nsvcd__grow_calm(&crowd, &movers[k]);
     out.asleep += movers[k].asleep != 0;
   }
+  if (is_driven) nsvcd__end_carrying(world);
   if (answer) *answer = out;
   return result;
 }

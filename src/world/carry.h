@@ -6,7 +6,7 @@
 // at the speed that it has besides, and gets that of the lift again.
 //
 // Going along is proven as any way is: against all that rests, and all that is driven or carried
-// meanwhile. A mover that is in the way is carried too. Who cannot go along stays, as does whoever
+// meanwhile. A mover that is in the way is carried too, as is what a lift comes up into. Who cannot go along stays, as does whoever
 // stands on it: they slide while the lift moves, as those do who stand on nothing driven.
 #pragma once
 #include "momentum.h"
@@ -16,7 +16,7 @@
 // metres a second: what carries a point as fast as another to this does so as one with it
 #define NSVCD__CARRIES_SAME 1e-3
 // of the clearance: how near those who are carried may come to what moves with them, by rounding
-#define NSVCD__CARRIES_WITHIN 0.5
+#define NSVCD__CARRIES_WITHIN 0.5f
 // rounds in which those who stay are found; then all stay
 #define NSVCD__CARRY_ROUNDS 20
 
@@ -93,22 +93,48 @@ static void nsvcd__carry(const nsvcd__crowd *crowd, nsvcd_world_mover *m, uint32
   if (!goes) (void)nsvcd__world_place(world, m->id, &stays, 0);
 }
 
+// Turns a mover into one who asks whether it is free.
+static nsvcd_result nsvcd__carried_asker(const nsvcd__crowd *crowd, const nsvcd_world_mover *m,
+                                         void *workspace, size_t size, nsvcd__asker *q) {
+  const nsvcd__resident *r = &crowd->world->residents[m->id];
+  nsvcd_world_question asked;
+  memset(&asked, 0, sizeof asked);
+  asked.self = m->id;
+  asked.question.clearance = (float)nsvcd__clearance_of(&m->how, r->shape.reach);
+  asked.question.work = m->how.work ? m->how.work : NSVCD_DEFAULT_SLIDE_WORK;
+  return nsvcd__asker_begin(crowd->world, &asked, workspace, size, q);
+}
+
+// What is driven up into a mover where it is lifts it, as what it stands on does; or nobody.
+static uint32_t nsvcd__lifter_of(const nsvcd__crowd *crowd, const nsvcd_world_mover *m,
+                                 void *workspace, size_t size, nsvcd_step_answer *out) {
+  const nsvcd__d3 centre = nsvcd__mover_centre(crowd, m);
+  uint32_t found = NSVCD_NOBODY;
+  nsvcd__asker q;
+  if (nsvcd__carried_asker(crowd, m, workspace, size, &q)) return found;
+  for (uint32_t id = 0; !found && (id = nsvcd__asker_next(&q, id)) != 0;) {
+    const nsvcd__resident *o = &crowd->world->residents[id];
+    const nsvcd__d3 goes = nsvcd__takes_along(crowd, o, centre);
+    nsvcd_answer answer;
+    if (o->carrier || !(nsvcd__d3_dot(goes, crowd->up) > 0.5 * nsvcd__d3_norm(goes))) continue;
+    if (nsvcd__ask_about(&q, id, &answer) && answer.verdict != NSVCD_FREE) found = id;
+  }
+  out->questions += q.questions;
+  out->work += q.work;
+  return found;
+}
+
 // Is the way on which a mover is carried free? What is known since neither of two has changed is
 // not asked again. If it is not, the mover stays, or what it meets is carried too.
 static int nsvcd__may_go_along(const nsvcd__crowd *crowd, const nsvcd_world_mover *m,
                                void *workspace, size_t size, nsvcd_step_answer *out) {
   nsvcd__asker q;
-  nsvcd_world_question asked;
   nsvcd_world *world = crowd->world;
   nsvcd__resident *r = &world->residents[m->id];
   const nsvcd_pose way[2] = {r->given.pose, r->to};
-  const double clearance = nsvcd__clearance_of(&m->how, r->shape.reach);
-  memset(&asked, 0, sizeof asked);
-  asked.self = m->id;
-  asked.question.clearance = (float)clearance;
-  asked.question.work = m->how.work ? m->how.work : NSVCD_DEFAULT_SLIDE_WORK;
-  r->stays = nsvcd__asker_begin(world, &asked, workspace, size, &q) != NSVCD_OK;
+  r->stays = nsvcd__carried_asker(crowd, m, workspace, size, &q) != NSVCD_OK;
   if (r->stays) return 0;
+  const float clearance = q.question.clearance;
   nsvcd__asker_goes(&q, way, 2);
   int is_free = 1;
   for (uint32_t id = 0; is_free && (id = nsvcd__asker_next(&q, id)) != 0;) {
@@ -116,7 +142,7 @@ static int nsvcd__may_go_along(const nsvcd__crowd *crowd, const nsvcd_world_move
     const uint64_t moved = r->moved > o->moved ? r->moved : o->moved;
     nsvcd_answer answer;
     if (r->proven >= moved || o->proven >= moved) continue;
-    q.question.clearance = (float)(clearance * (o->is_driven ? NSVCD__CARRIES_WITHIN : 1));
+    q.question.clearance = o->is_driven ? NSVCD__CARRIES_WITHIN * clearance : clearance;
     is_free = nsvcd__ask_about(&q, id, &answer) && answer.verdict == NSVCD_FREE;
     if (is_free) continue;
     const int may_join = nsvcd__mover_with(crowd, id) && !o->is_driven && !o->stays;
@@ -142,7 +168,9 @@ static void nsvcd__carry_all(const nsvcd__crowd *crowd, void *workspace, size_t 
       nsvcd__resident *r = &world->residents[m->id];
       if (r->is_driven && !r->carrier) continue;
       r->stays |= round >= NSVCD__CARRY_ROUNDS;
-      const uint32_t carrier = nsvcd__carrier_of(crowd, m);
+      uint32_t carrier = nsvcd__carrier_of(crowd, m);
+      if (!carrier && round == 0)
+        carrier = r->joins = nsvcd__lifter_of(crowd, m, workspace, size, out);
       if (carrier != r->carrier) nsvcd__carry(crowd, m, carrier);
     }
     for (size_t k = 0; k < crowd->count; k++) {
@@ -154,7 +182,21 @@ static void nsvcd__carry_all(const nsvcd__crowd *crowd, void *workspace, size_t 
   for (size_t k = 0; k < crowd->count; k++) {
     nsvcd__resident *r = &world->residents[crowd->movers[k].id];
     const nsvcd_pose to = r->to;
-    if (r->carrier) (void)nsvcd__world_place(crowd->world, crowd->movers[k].id, &to, 0);
+    const nsvcd_world_mover *m = &crowd->movers[k];
+    if (!r->carrier) continue;
+    (void)nsvcd__world_place(crowd->world, m->id, &to, 0);
+    if (!(m->how.mass > 0)) continue;
+    r->slips = nsvcd__d3_sub(nsvcd__d3_load(m->velocity.linear), r->goes);
+  }
+}
+
+static void nsvcd__end_carrying(const nsvcd_world *world) {
+  for (uint32_t id = 1; id <= world->count; id++) {
+    nsvcd__resident *r = &world->residents[id];
+    r->carrier = r->joins = NSVCD_NOBODY;
+    r->proven = 0;
+    r->stays = 0;
+    r->slips = nsvcd__d3_of(0, 0, 0);
   }
 }
 

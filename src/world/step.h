@@ -166,9 +166,11 @@ static void nsvcd__grow_calm(const nsvcd__crowd *crowd, nsvcd_world_mover *m) {
 // Gives a mover what gravity adds to its speed, less what brakes it, as seen from what it stands
 // on.
 static void nsvcd__pull_and_brake(const nsvcd__crowd *crowd, nsvcd_world_mover *m) {
+  const int is_carried = crowd->world->residents[m->id].carrier != NSVCD_NOBODY;
   const int is_braked = m->answer.contact_count > 0 && m->how.mass > 0 && m->how.friction > 0;
-  const int is_slow =
-      is_braked && nsvcd__mover_speed(crowd, m) < NSVCD__NEARLY_QUIET * crowd->quiet;
+  // a lift that speeds up would hold by brakes what friction does not
+  const int is_slow = is_braked && !is_carried &&
+                      nsvcd__mover_speed(crowd, m) < NSVCD__NEARLY_QUIET * crowd->quiet;
   const double quiet = is_slow ? NSVCD__BRAKES_QUIET : 0;
   const double speed = is_braked ? nsvcd__max(NSVCD__BRAKES_SPEED, quiet) : 0;
   const double spin = is_braked ? nsvcd__max(NSVCD__BRAKES_SPIN, quiet) : 0;
@@ -211,6 +213,7 @@ static nsvcd_result nsvcd__step_mover(const nsvcd__crowd *crowd, nsvcd_world_mov
   if (is_thing) nsvcd__add_carried(none, turns, 1, &came);
   if (is_thing) nsvcd__add_carried(none, turns, 1, &m->velocity);
   nsvcd__share_momentum(crowd, m, &came, goes);
+  r->slips = is_thing ? nsvcd__d3_load(m->velocity.linear) : none;
   if (is_thing) nsvcd__add_carried(goes, none, 1, &m->velocity);
   out->awake++;
   out->caught += m->answer.caught != NSVCD_NOBODY;
@@ -243,12 +246,6 @@ NSVCDDEF nsvcd_result nsvcd_world_step(nsvcd_world *world, nsvcd_world_mover *mo
     if (was_woken || (m->asleep && nsvcd__is_disturbed(&crowd, m))) nsvcd__wake(m);
   }
   const int is_driven = nsvcd__wake_near_driven(&crowd);
-  for (size_t id = 1; id <= world->count; id++) {
-    nsvcd__resident *r = &world->residents[id];
-    r->carrier = r->joins = NSVCD_NOBODY;
-    r->stays = 0;
-    r->proven = 0;
-  }
   if (is_driven) nsvcd__carry_all(&crowd, workspace, workspace_size, &out);
   // who is carried slides when all that is driven has arrived
   for (int carried = 0; carried <= is_driven; carried++) {
@@ -268,6 +265,7 @@ NSVCDDEF nsvcd_result nsvcd_world_step(nsvcd_world *world, nsvcd_world_mover *mo
     nsvcd__grow_calm(&crowd, &movers[k]);
     out.asleep += movers[k].asleep != 0;
   }
+  if (is_driven) nsvcd__end_carrying(world);
   if (answer) *answer = out;
   return result;
 }

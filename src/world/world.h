@@ -21,14 +21,14 @@ typedef struct nsvcd__resident {
   uint32_t next_free;
   // which of a step's movers it was last
   uint32_t mover;
-  // of that step: the driven body that carries it; that it is in the way of what this one carries;
-  // or that it cannot be carried
+  // during that step: the driven body that carries it; that it is in the way of what this one
+  // carries; or that it cannot be carried
   uint32_t carrier, joins;
   int stays;
   // when its way along was proven to be free, on the world's clock; metres and radians a second of
-  // it
+  // it; and its speed besides
   uint64_t proven;
-  nsvcd__d3 goes, turns;
+  nsvcd__d3 goes, turns, slips;
 } nsvcd__resident;
 
 // One of a step's movers, and how high it is.
