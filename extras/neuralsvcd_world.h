@@ -1253,6 +1253,36 @@ static nsvcd__box nsvcd__box_of_way(const nsvcd__shape_box *shape, const nsvcd_p
   return out;
 }
 
+// Is a turn so near to half a turn that rounding may decide which way it goes?
+static int nsvcd__is_half_turn(const nsvcd_pose *poses, size_t count) {
+  return count > 1 && nsvcd__slerp_of(&poses[0], &poses[1]).half_angle > 1.5;
+}
+
+// A pose as it is seen from a frame.
+static nsvcd_pose nsvcd__seen_from(const nsvcd_pose *frame, const nsvcd_pose *pose) {
+  const nsvcd__dpose from = nsvcd__unit_dpose(frame);
+  const nsvcd__dpose at = nsvcd__unit_dpose(pose);
+  const nsvcd__dtransform place = nsvcd__dtransform_of(&from);
+  nsvcd__dpose out;
+  out.rotation = nsvcd__dquat_mul(nsvcd__dquat_inverse(from.rotation), at.rotation);
+  out.position =
+      nsvcd__dmat3_apply_transpose(&place.rotation, nsvcd__d3_sub(at.position, from.position));
+  return nsvcd__dpose_round(&out);
+}
+
+// Do the boxes of a way of one or two poses, larger by `more`, and of a body at rest meet in a
+// frame? A line is one, and a slerp is one, in any frame that does not move.
+static int nsvcd__boxes_meet_in(const nsvcd_pose *frame, const nsvcd__shape_box *shape,
+                                const nsvcd_pose *poses, size_t count, double more,
+                                const nsvcd__shape_box *other, const nsvcd_pose *at) {
+  const nsvcd_pose there = nsvcd__seen_from(frame, at);
+  nsvcd_pose way[2];
+  for (size_t k = 0; k < count; k++) way[k] = nsvcd__seen_from(frame, &poses[k]);
+  const nsvcd__box a = nsvcd__box_of_way(shape, way, count, more);
+  const nsvcd__box b = nsvcd__box_of_pose(other, &there, 0);
+  return nsvcd__boxes_meet(&a, &b);
+}
+
 // -------------------------------------------------------------------------------------- world/tree
 // In: boxes, each with a number from 1 on. Out: a tree in which those that meet a box are found.
 //
@@ -1686,8 +1716,9 @@ typedef struct nsvcd__asker {
   uint32_t groups, passes;
   int with_sensors;
   nsvcd__shape_box shape;
-  // what its way may come near
+  // what its way may come near, and how near, metres
   nsvcd__box box;
+  double apart;
   // driven bodies are asked about from this part of the frame on, as is the mover; or only then
   double since;
   int at_once;
@@ -1700,10 +1731,11 @@ typedef struct nsvcd__asker {
 
 // Turns to other poses of the mover.
 static void nsvcd__asker_goes(nsvcd__asker *q, const nsvcd_pose *poses, size_t count) {
-  const double apart = (double)q->question.clearance + (double)q->question.tolerance;
+  q->apart =
+      (double)q->question.clearance + (double)q->question.tolerance + (double)q->question.slop;
   q->question.a.poses = poses;
   q->question.a.count = count;
-  q->box = nsvcd__box_of_way(&q->shape, poses, count, apart + (double)q->question.slop);
+  q->box = nsvcd__box_of_way(&q->shape, poses, count, q->apart);
 }
 
 // Where a body is in the part of the frame that is asked about: writes its poses and how many.
@@ -1721,6 +1753,17 @@ static void nsvcd__asker_sees(nsvcd__asker *q, const nsvcd__resident *r, nsvcd_m
   mover->count = q->at_once ? 1 : 2;
 }
 
+// May the mover, whose box meets that of a body, meet the body, as boxes in the frames of both tell?
+// Where it turns half around, rounding decides which way.
+static int nsvcd__asker_may_meet(const nsvcd__asker *q, const nsvcd__resident *r) {
+  const nsvcd_mover *a = &q->question.a;
+  const nsvcd_pose *at = &r->given.pose;
+  if (r->is_driven || a->count > 2 || nsvcd__is_half_turn(a->poses, a->count)) return 1;
+  return nsvcd__boxes_meet_in(at, &q->shape, a->poses, a->count, q->apart, &r->shape, at) &&
+         nsvcd__boxes_meet_in(&a->poses[0], &q->shape, a->poses, a->count, q->apart, &r->shape,
+                              at);
+}
+
 // The next body that the mover may meet after body `at`, or the first if that is 0; 0: none.
 static uint32_t nsvcd__asker_next(const nsvcd__asker *q, uint32_t at) {
   const nsvcd_world *world = q->world;
@@ -1728,7 +1771,7 @@ static uint32_t nsvcd__asker_next(const nsvcd__asker *q, uint32_t at) {
     const nsvcd__resident *r = &world->residents[at];
     if (at == q->self || (r->given.sensor && !q->with_sensors)) continue;
     if (!nsvcd__groups_meet(q->groups, q->passes, &r->given)) continue;
-    if (nsvcd__boxes_meet(&q->box, &r->box)) return at;
+    if (nsvcd__boxes_meet(&q->box, &r->box) && nsvcd__asker_may_meet(q, r)) return at;
   }
   return 0;
 }
