@@ -335,8 +335,12 @@ typedef struct nsvcd_step_answer {
 //              library
 //
 // What is proven is proven as of slides: no two bodies overlap, if none did. The rest is physics:
-//   Whoever stands on other movers on a lift that rises goes before all others, the highest first,
-// and as fast as the lift: so a stack rises with it.
+//   Whoever stands on something driven, be it by way of others, is carried: it goes along at the
+// same time, and slides afterwards, at the speed that it has besides. So stacks ride on lifts,
+// platforms and turntables, as far as friction holds them. What a lift comes up into is carried
+// too, and what is in the way of those who are. Going along is proven as any way is, but past what
+// moves at the same time by half the clearance. Who cannot go along, and whoever stands on that,
+// slides with the others, before all who are carried.
 //   A mover that is driven (nsvcd_world_drive) goes where it is driven, for that frame, as one that
 // nothing stops, and its velocity is left alone.
 //   What two bodies give each other keeps their momentum along the normal, and gains no energy.
@@ -1753,8 +1757,8 @@ static void nsvcd__asker_sees(nsvcd__asker *q, const nsvcd__resident *r, nsvcd_m
   mover->count = q->at_once ? 1 : 2;
 }
 
-// May the mover, whose box meets that of a body, meet the body, as boxes in the frames of both tell?
-// Where it turns half around, rounding decides which way.
+// May the mover, whose box meets that of a body, meet the body, as boxes in the frames of both
+// tell? Where it turns half around, rounding decides which way.
 static int nsvcd__asker_may_meet(const nsvcd__asker *q, const nsvcd__resident *r) {
   const nsvcd_mover *a = &q->question.a;
   const nsvcd_pose *at = &r->given.pose;
@@ -2360,7 +2364,7 @@ static nsvcd__d3 nsvcd__driven_speed(const nsvcd__slide *s, size_t id, nsvcd__d3
   return nsvcd__d3_scale(moved, 1 / (s->left * s->seconds));
 }
 
-// How fast what is carried slips along a contact: it has moved already, and only friction sees that.
+// How fast what is carried slips along a contact: it has moved already, and only friction sees it.
 static nsvcd__d3 nsvcd__slip_of(const nsvcd__resident *r, nsvcd__d3 normal) {
   if (!r->carrier) return nsvcd__d3_of(0, 0, 0);
   return nsvcd__d3_fma(-nsvcd__d3_dot(r->slips, normal), normal, r->slips);
@@ -2663,7 +2667,7 @@ static nsvcd__thing nsvcd__thing_of(const nsvcd_slide_options *given, const nsvc
   return out;
 }
 
-static double nsvcd__clearance_of(const nsvcd_slide_options *given, double reach) {
+static double nsvcd__kept_clearance(const nsvcd_slide_options *given, double reach) {
   return given->clearance > 0 ? (double)given->clearance : NSVCD__USUAL_CLEARANCE * reach;
 }
 
@@ -2683,7 +2687,7 @@ static nsvcd_result nsvcd__slide_begin(const nsvcd_world *world, size_t id,
   if (result) return result;
   s->given = given;
   s->pose = world->residents[id].given.pose;
-  s->clearance = nsvcd__clearance_of(given, s->ask.shape.reach);
+  s->clearance = nsvcd__kept_clearance(given, s->ask.shape.reach);
   s->margin = given->margin > 0 ? (double)given->margin : s->clearance;
   s->seconds = (double)seconds;
   s->left = s->pace = 1;
@@ -3082,8 +3086,9 @@ static void nsvcd__share_momentum(const nsvcd__crowd *crowd, nsvcd_world_mover *
 // at the speed that it has besides, and gets that of the lift again.
 //
 // Going along is proven as any way is: against all that rests, and all that is driven or carried
-// meanwhile. A mover that is in the way is carried too, as is what a lift comes up into. Who cannot go along stays, as does whoever
-// stands on it: they slide while the lift moves, as those do who stand on nothing driven.
+// meanwhile. A mover that is in the way is carried too, as is what a lift comes up into. Who cannot
+// go along stays, as does whoever stands on it: they slide while the lift moves, as those do who
+// stand on nothing driven.
 
 // radians: what turns by more in a frame carries nobody
 #define NSVCD__CARRIES_TURN 0.5
@@ -3174,7 +3179,7 @@ static nsvcd_result nsvcd__carried_asker(const nsvcd__crowd *crowd, const nsvcd_
   nsvcd_world_question asked;
   memset(&asked, 0, sizeof asked);
   asked.self = m->id;
-  asked.question.clearance = (float)nsvcd__clearance_of(&m->how, r->shape.reach);
+  asked.question.clearance = (float)nsvcd__kept_clearance(&m->how, r->shape.reach);
   asked.question.work = m->how.work ? m->how.work : NSVCD_DEFAULT_SLIDE_WORK;
   return nsvcd__asker_begin(crowd->world, &asked, workspace, size, q);
 }
@@ -3418,7 +3423,7 @@ static int nsvcd__wake_near_driven(const nsvcd__crowd *crowd) {
   for (size_t k = 0; k < crowd->count; k++) {
     const nsvcd_slide_options *how = &crowd->movers[k].how;
     const double reach = world->residents[crowd->movers[k].id].shape.reach;
-    const double clearance = nsvcd__clearance_of(how, reach);
+    const double clearance = nsvcd__kept_clearance(how, reach);
     const double margin = how->margin > 0 ? (double)how->margin : clearance;
     within = nsvcd__max(within, clearance + 2 * margin);
   }

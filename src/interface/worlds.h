@@ -285,8 +285,12 @@ typedef struct nsvcd_step_answer {
 //              library
 //
 // What is proven is proven as of slides: no two bodies overlap, if none did. The rest is physics:
-//   Whoever stands on other movers on a lift that rises goes before all others, the highest first,
-// and as fast as the lift: so a stack rises with it.
+//   Whoever stands on something driven, be it by way of others, is carried: it goes along at the
+// same time, and slides afterwards, at the speed that it has besides. So stacks ride on lifts,
+// platforms and turntables, as far as friction holds them. What a lift comes up into is carried
+// too, and what is in the way of those who are. Going along is proven as any way is, but past what
+// moves at the same time by half the clearance. Who cannot go along, and whoever stands on that,
+// slides with the others, before all who are carried.
 //   A mover that is driven (nsvcd_world_drive) goes where it is driven, for that frame, as one that
 // nothing stops, and its velocity is left alone.
 //   What two bodies give each other keeps their momentum along the normal, and gains no energy.

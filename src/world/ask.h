@@ -62,8 +62,8 @@ static void nsvcd__asker_sees(nsvcd__asker *q, const nsvcd__resident *r, nsvcd_m
   mover->count = q->at_once ? 1 : 2;
 }
 
-// May the mover, whose box meets that of a body, meet the body, as boxes in the frames of both tell?
-// Where it turns half around, rounding decides which way.
+// May the mover, whose box meets that of a body, meet the body, as boxes in the frames of both
+// tell? Where it turns half around, rounding decides which way.
 static int nsvcd__asker_may_meet(const nsvcd__asker *q, const nsvcd__resident *r) {
   const nsvcd_mover *a = &q->question.a;
   const nsvcd_pose *at = &r->given.pose;

@@ -6,8 +6,9 @@
 // at the speed that it has besides, and gets that of the lift again.
 //
 // Going along is proven as any way is: against all that rests, and all that is driven or carried
-// meanwhile. A mover that is in the way is carried too, as is what a lift comes up into. Who cannot go along stays, as does whoever
-// stands on it: they slide while the lift moves, as those do who stand on nothing driven.
+// meanwhile. A mover that is in the way is carried too, as is what a lift comes up into. Who cannot
+// go along stays, as does whoever stands on it: they slide while the lift moves, as those do who
+// stand on nothing driven.
 #pragma once
 #include "momentum.h"
 
@@ -100,7 +101,7 @@ static nsvcd_result nsvcd__carried_asker(const nsvcd__crowd *crowd, const nsvcd_
   nsvcd_world_question asked;
   memset(&asked, 0, sizeof asked);
   asked.self = m->id;
-  asked.question.clearance = (float)nsvcd__clearance_of(&m->how, r->shape.reach);
+  asked.question.clearance = (float)nsvcd__kept_clearance(&m->how, r->shape.reach);
   asked.question.work = m->how.work ? m->how.work : NSVCD_DEFAULT_SLIDE_WORK;
   return nsvcd__asker_begin(crowd->world, &asked, workspace, size, q);
 }

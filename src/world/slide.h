@@ -43,7 +43,7 @@ static nsvcd__thing nsvcd__thing_of(const nsvcd_slide_options *given, const nsvc
   return out;
 }
 
-static double nsvcd__clearance_of(const nsvcd_slide_options *given, double reach) {
+static double nsvcd__kept_clearance(const nsvcd_slide_options *given, double reach) {
   return given->clearance > 0 ? (double)given->clearance : NSVCD__USUAL_CLEARANCE * reach;
 }
 
@@ -63,7 +63,7 @@ static nsvcd_result nsvcd__slide_begin(const nsvcd_world *world, size_t id,
   if (result) return result;
   s->given = given;
   s->pose = world->residents[id].given.pose;
-  s->clearance = nsvcd__clearance_of(given, s->ask.shape.reach);
+  s->clearance = nsvcd__kept_clearance(given, s->ask.shape.reach);
   s->margin = given->margin > 0 ? (double)given->margin : s->clearance;
   s->seconds = (double)seconds;
   s->left = s->pace = 1;

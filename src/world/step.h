@@ -133,7 +133,7 @@ static int nsvcd__wake_near_driven(const nsvcd__crowd *crowd) {
   for (size_t k = 0; k < crowd->count; k++) {
     const nsvcd_slide_options *how = &crowd->movers[k].how;
     const double reach = world->residents[crowd->movers[k].id].shape.reach;
-    const double clearance = nsvcd__clearance_of(how, reach);
+    const double clearance = nsvcd__kept_clearance(how, reach);
     const double margin = how->margin > 0 ? (double)how->margin : clearance;
     within = nsvcd__max(within, clearance + 2 * margin);
   }

@@ -81,7 +81,7 @@ static nsvcd__d3 nsvcd__driven_speed(const nsvcd__slide *s, size_t id, nsvcd__d3
   return nsvcd__d3_scale(moved, 1 / (s->left * s->seconds));
 }
 
-// How fast what is carried slips along a contact: it has moved already, and only friction sees that.
+// How fast what is carried slips along a contact: it has moved already, and only friction sees it.
 static nsvcd__d3 nsvcd__slip_of(const nsvcd__resident *r, nsvcd__d3 normal) {
   if (!r->carrier) return nsvcd__d3_of(0, 0, 0);
   return nsvcd__d3_fma(-nsvcd__d3_dot(r->slips, normal), normal, r->slips);
