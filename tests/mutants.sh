@@ -555,7 +555,7 @@ world: changes within changes|if (world->changes \& 1) return 0;|
 world: a list as it comes|for (; at > 0 \&\& ids[at - 1] > id; at--)|for (; at > most;)
 slide: driven bodies from their start|s->ask.since = 1 - s->left;\n  s->ask.at_once = at_once;|s->ask.since = 0;\n  s->ask.at_once = at_once;
 slide: half the clearance|s->ask.question.clearance = (float)s->clearance;|s->ask.question.clearance = 0.5f * (float)s->clearance;
-slide: driven bodies without a speed|h->speed = nsvcd__driven_speed(s, s->contacts[k].body, on_other);|
+slide: driven bodies without a speed|const nsvcd__d3 driven = nsvcd__driven_speed(s, s->contacts[k].body, on_other);|const nsvcd__d3 driven = {0 * on_other.x, 0, 0};
 slide: nobody is caught|if (free_until < 1) out.caught = s.met;|
 slide: no way out|return nsvcd__push_off(s) \|\| gone > 0;|return gone > 0;
 slide: few rounds before doors|nsvcd__met_driven(\&s) ? 4 * rounds : rounds|rounds
@@ -572,7 +572,6 @@ slide: stays at the clearance|left[k].least = NSVCD__LEAVES * nsvcd__max(holds[k
 slide: no way down|if (stood \&\& !s.ground \&\& given->step > 0 \&\& rises <= 0) nsvcd__step_down(\&s);|
 slide: a climb is no way|s->pace *= 1 - gone;|
 slide: nobody rides|s->ridden = nsvcd__driven_speed(s, s->ground->body, nsvcd__pivot_at(s));|
-step: only what is driven carries|const uint32_t id = r->carrier ? r->carrier : r->is_driven|const uint32_t id = r->is_driven|
 step: going along is no way|is_free = nsvcd__ask_about(\&q, id, \&answer) \&\& answer.verdict == NSVCD_FREE;|is_free = 1;
 step: known whatever moved|if (r->proven >= moved \|\| o->proven >= moved) continue;|if (r->proven \|\| o->proven) continue;
 step: a lift passes through|if (nsvcd__ask_about(\&q, id, \&answer) \&\& answer.verdict != NSVCD_FREE) found = id;|(void)0;
