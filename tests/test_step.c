@@ -113,8 +113,8 @@ static double take_a_ride(const ride *r, double ceiling) {
   nsvcd_step_answer answer;
   if (ceiling > 0) stage_add(&s, thing_box(9, 9, 1), pose_of(0, 0, ceiling + 0.5), 1);
   for (int k = 0; k < all; k++) {
-    m[k] = add_cube(&s, 0.502 * (k / r->tall), 0.9 + 0.02 * (k % 2), 0.2515 + 0.5015 * (k % r->tall),
-                    1, 1);
+    m[k] = add_cube(&s, 0.502 * (k / r->tall), 0.9 + 0.02 * (k % 2),
+                    0.2515 + 0.5015 * (k % r->tall), 1, 1);
     m[k].how.friction = (float)r->friction;
   }
   for (int f = 0; f < 60; f++) answer = step(&s, m, (size_t)all, &earth);
@@ -122,7 +122,8 @@ static double take_a_ride(const ride *r, double ceiling) {
   for (int k = 0; k < all; k++)
     for (int i = 0; i < 3; i++) places[k][i] = (double)stage_pose(&s, m[k].id).position[i];
   for (int f = 0; f < r->frames + 2 * ramp; f++) {
-    const double share = ramp > 0 ? fmin(1, fmin(f + 1, r->frames + 2 * ramp - f) / (double)ramp) : 1;
+    const double share =
+        ramp > 0 ? fmin(1, fmin(f + 1, r->frames + 2 * ramp - f) / (double)ramp) : 1;
     speed = r->fast * share;
     at += speed / 60;
     const nsvcd_pose to = ride_pose(r, at);
@@ -145,10 +146,12 @@ static double take_a_ride(const ride *r, double ceiling) {
 
 static void stacks_ride(void) {
   static const ride rides[] = {
-      {3, 1, 40, 2, 1, 1, 0.5, 0},     {3, 2, 40, 2, 1, 4, 0.5, 0},   {3, -1, 40, 2, 1, 1, 0.5, 0},
-      {3, -2, 40, 2, 1, 2, 0.5, 0},    {3, -1, 40, 2, 1, 5, 0.5, 0},  {3, -2, 40, 2, 1, 10, 0.5, 0},
-      {0.5, 0.5, 30, 0, 1, 5, 0.5, 0}, {1.5, 1, 30, 0, 1, 5, 0.5, 0}, {1.5, -1, 30, 1, 1, 10, 0.5, 0},
-      {1.5, -1, 30, 0, 2, 4, 0.5, 0},  {3, -2, 30, 2, 2, 4, 0.5, 0},  {1, 1, 90, 3, 1, 5, 0.5, 0},
+      {3, 1, 40, 2, 1, 1, 0.5, 0},     {3, 2, 40, 2, 1, 4, 0.5, 0},
+      {3, -1, 40, 2, 1, 1, 0.5, 0},    {3, -2, 40, 2, 1, 2, 0.5, 0},
+      {3, -1, 40, 2, 1, 5, 0.5, 0},    {3, -2, 40, 2, 1, 10, 0.5, 0},
+      {0.5, 0.5, 30, 0, 1, 5, 0.5, 0}, {1.5, 1, 30, 0, 1, 5, 0.5, 0},
+      {1.5, -1, 30, 1, 1, 10, 0.5, 0}, {1.5, -1, 30, 0, 2, 4, 0.5, 0},
+      {3, -2, 30, 2, 2, 4, 0.5, 0},    {1, 1, 90, 3, 1, 5, 0.5, 0},
       {1, -1, 90, 3, 2, 3, 0.5, 0},
   };
   for (size_t k = 0; k < sizeof rides / sizeof *rides; k++) {
@@ -215,7 +218,7 @@ static void who_cannot_be_carried_stays(void) {
     }
     for (size_t k = 0; k < count; k++) {
       const nsvcd_pose now = stage_pose(&s, m[k].id);
-        if (kind == 2 && k == 3) {
+      if (kind == 2 && k == 3) {
         CHECK_GE(now.position[0], 2.25 + at - 0.01);
         continue;
       }
@@ -242,7 +245,8 @@ static void what_lands_on_a_stack_rides(void) {
       CHECK_EQ(step(&s, m, 3, &earth).caught, 0);
       keep_apart(&s, m, 3);
     }
-    for (int k = 0; k < 3; k++) CHECK_NEAR(stage_pose(&s, m[k].id).position[2], at + 0.251 + 0.501 * k, 0.004);
+    for (int k = 0; k < 3; k++)
+      CHECK_NEAR(stage_pose(&s, m[k].id).position[2], at + 0.251 + 0.501 * k, 0.004);
     stage_end(&s);
   }
 }
@@ -261,7 +265,8 @@ static void a_crowd_is_carried_about(void) {
     stage_add(&s, thing_box(0.3, 9, 0.3), pose_of(-0.5, 0, 2.6), 1);
     for (int k = 0; k < CROWD; k++) {
       m[k] = k == 9 ? add_cube(&s, 0, -0.7, 0.26, 0, 0)
-                    : add_cube(&s, 0.6 * (k % 3) - 0.6, 0.6 * (k / 3 % 2), 0.26 + 0.502 * (k / 6), 1, 1);
+                    : add_cube(&s, 0.6 * (k % 3) - 0.6, 0.6 * (k / 3 % 2), 0.26 + 0.502 * (k / 6),
+                               1, 1);
     }
     m[9].how.up[2] = 1;
     m[9].push_mass = 40;
