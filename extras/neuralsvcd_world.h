@@ -31,6 +31,7 @@
 //     walk            characters: grounds, walls and steps
 //     slide           a frame of a body
 //     momentum        what bodies that meet give each other
+//     carry           who goes along with lifts
 //     step            a frame of all
 //     mass            the mass of a mesh
 //
@@ -334,8 +335,12 @@ typedef struct nsvcd_step_answer {
 //              library
 //
 // What is proven is what slides prove: no two bodies overlap, if none did. The rest is physics:
-//   Movers that stand on others on a lift that rises go before the rest, the highest first, and as
-// fast as the lift: so a stack rises with it.
+//   A mover that stands on something driven, directly or by way of others, is carried: it goes along
+// with it, then slides at the speed that it has relative to it. So stacks ride on lifts, platforms
+// and turntables, as far as friction holds them. A mover that a lift comes up into is carried too,
+// and so is what is in the way of riders. Going along is proven like any way, but past what moves at
+// the same time it keeps only half the clearance. A mover that cannot go along, with all that stands
+// on it, slides in the world, before those that are carried.
 //   A mover that is driven (nsvcd_world_drive) goes where it is driven, for that frame, stops for
 // nothing, and keeps its velocity.
 //   What two bodies give each other keeps their momentum along the normal, and gains no energy. An
@@ -1252,6 +1257,36 @@ static nsvcd__box nsvcd__box_of_way(const nsvcd__shape_box *shape, const nsvcd_p
   return out;
 }
 
+// Is a turn so near to half a turn that rounding may decide which way it goes?
+static int nsvcd__is_half_turn(const nsvcd_pose *poses, size_t count) {
+  return count > 1 && nsvcd__slerp_of(&poses[0], &poses[1]).half_angle > 1.5;
+}
+
+// A pose as it is seen from a frame.
+static nsvcd_pose nsvcd__seen_from(const nsvcd_pose *frame, const nsvcd_pose *pose) {
+  const nsvcd__dpose from = nsvcd__unit_dpose(frame);
+  const nsvcd__dpose at = nsvcd__unit_dpose(pose);
+  const nsvcd__dtransform place = nsvcd__dtransform_of(&from);
+  nsvcd__dpose out;
+  out.rotation = nsvcd__dquat_mul(nsvcd__dquat_inverse(from.rotation), at.rotation);
+  out.position =
+      nsvcd__dmat3_apply_transpose(&place.rotation, nsvcd__d3_sub(at.position, from.position));
+  return nsvcd__dpose_round(&out);
+}
+
+// Do the boxes of a way of one or two poses, larger by `more`, and of a body at rest meet in a
+// frame? A line is one, and a slerp is one, in any frame that does not move.
+static int nsvcd__boxes_meet_in(const nsvcd_pose *frame, const nsvcd__shape_box *shape,
+                                const nsvcd_pose *poses, size_t count, double more,
+                                const nsvcd__shape_box *other, const nsvcd_pose *at) {
+  const nsvcd_pose there = nsvcd__seen_from(frame, at);
+  nsvcd_pose way[2];
+  for (size_t k = 0; k < count; k++) way[k] = nsvcd__seen_from(frame, &poses[k]);
+  const nsvcd__box a = nsvcd__box_of_way(shape, way, count, more);
+  const nsvcd__box b = nsvcd__box_of_pose(other, &there, 0);
+  return nsvcd__boxes_meet(&a, &b);
+}
+
 // -------------------------------------------------------------------------------------- world/tree
 // In: boxes, each with a number from 1 on. Out: a tree in which those that meet a box are found.
 //
@@ -1422,10 +1457,16 @@ typedef struct nsvcd__resident {
   // when it came to where it is, on the world's clock
   uint64_t moved;
   uint32_t next_free;
-  // which of a step's movers it was last; and how fast a lift raises it, negative if it stands on
-  // that itself, and not by way of others
+  // which of a step's movers it was last
   uint32_t mover;
-  float rise;
+  // during that step: the driven body that carries it; that it is in the way of what this one
+  // carries; or that it cannot be carried
+  uint32_t carrier, joins;
+  int stays;
+  // when its way along was proven to be free, on the world's clock; metres and radians a second of
+  // it; and its speed besides
+  uint64_t proven;
+  nsvcd__d3 goes, turns, slips;
 } nsvcd__resident;
 
 // One of a step's movers, and how high it is.
@@ -1679,8 +1720,9 @@ typedef struct nsvcd__asker {
   uint32_t groups, passes;
   int with_sensors;
   nsvcd__shape_box shape;
-  // what its way may come near
+  // what its way may come near, and how near, metres
   nsvcd__box box;
+  double apart;
   // driven bodies are asked about from this part of the frame on, as is the mover; or only then
   double since;
   int at_once;
@@ -1693,10 +1735,11 @@ typedef struct nsvcd__asker {
 
 // Turns to other poses of the mover.
 static void nsvcd__asker_goes(nsvcd__asker *q, const nsvcd_pose *poses, size_t count) {
-  const double apart = (double)q->question.clearance + (double)q->question.tolerance;
+  q->apart =
+      (double)q->question.clearance + (double)q->question.tolerance + (double)q->question.slop;
   q->question.a.poses = poses;
   q->question.a.count = count;
-  q->box = nsvcd__box_of_way(&q->shape, poses, count, apart + (double)q->question.slop);
+  q->box = nsvcd__box_of_way(&q->shape, poses, count, q->apart);
 }
 
 // Where a body is in the part of the frame that is asked about: writes its poses and how many.
@@ -1714,6 +1757,17 @@ static void nsvcd__asker_sees(nsvcd__asker *q, const nsvcd__resident *r, nsvcd_m
   mover->count = q->at_once ? 1 : 2;
 }
 
+// May the mover, whose box meets that of a body, meet the body, as boxes in the frames of both
+// tell? Where it turns half around, rounding decides which way.
+static int nsvcd__asker_may_meet(const nsvcd__asker *q, const nsvcd__resident *r) {
+  const nsvcd_mover *a = &q->question.a;
+  const nsvcd_pose *at = &r->given.pose;
+  if (r->is_driven || a->count > 2 || nsvcd__is_half_turn(a->poses, a->count)) return 1;
+  return nsvcd__boxes_meet_in(at, &q->shape, a->poses, a->count, q->apart, &r->shape, at) &&
+         nsvcd__boxes_meet_in(&a->poses[0], &q->shape, a->poses, a->count, q->apart, &r->shape,
+                              at);
+}
+
 // The next body that the mover may meet after body `at`, or the first if that is 0; 0: none.
 static uint32_t nsvcd__asker_next(const nsvcd__asker *q, uint32_t at) {
   const nsvcd_world *world = q->world;
@@ -1721,7 +1775,7 @@ static uint32_t nsvcd__asker_next(const nsvcd__asker *q, uint32_t at) {
     const nsvcd__resident *r = &world->residents[at];
     if (at == q->self || (r->given.sensor && !q->with_sensors)) continue;
     if (!nsvcd__groups_meet(q->groups, q->passes, &r->given)) continue;
-    if (nsvcd__boxes_meet(&q->box, &r->box)) return at;
+    if (nsvcd__boxes_meet(&q->box, &r->box) && nsvcd__asker_may_meet(q, r)) return at;
   }
   return 0;
 }
@@ -2315,6 +2369,12 @@ static nsvcd__d3 nsvcd__driven_speed(const nsvcd__slide *s, size_t id, nsvcd__d3
   return nsvcd__d3_scale(moved, 1 / (s->left * s->seconds));
 }
 
+// How fast what is carried slips along a contact: it has moved already, and only friction sees it.
+static nsvcd__d3 nsvcd__slip_of(const nsvcd__resident *r, nsvcd__d3 normal) {
+  if (!r->carrier) return nsvcd__d3_of(0, 0, 0);
+  return nsvcd__d3_fma(-nsvcd__d3_dot(r->slips, normal), normal, r->slips);
+}
+
 // Finds all contacts at the pose now, behind those that have pushed, and what they ask for.
 static void nsvcd__slide_look(nsvcd__slide *s) {
   const nsvcd__d3 pivot = nsvcd__pivot_at(s);
@@ -2338,7 +2398,9 @@ static void nsvcd__slide_look(nsvcd__slide *s) {
     memset(h, 0, sizeof *h);
     h->normal = nsvcd__d3_load(c->normal);
     const nsvcd__d3 on_other = nsvcd__d3_load(c->point);
-    h->speed = nsvcd__driven_speed(s, s->contacts[k].body, on_other);
+    const nsvcd__d3 driven = nsvcd__driven_speed(s, s->contacts[k].body, on_other);
+    h->speed = nsvcd__d3_add(
+        driven, nsvcd__slip_of(&s->ask.world->residents[s->contacts[k].body], h->normal));
     h->arm = nsvcd__d3_sub(nsvcd__d3_fma((double)c->gap, h->normal, on_other), pivot);
     h->lacks = s->clearance + 0.5 * s->margin - (double)c->gap;
     h->least = nsvcd__min(s->clearance + s->margin - (double)c->gap, 0) / time;
@@ -2630,6 +2692,10 @@ static nsvcd__thing nsvcd__thing_of(const nsvcd_slide_options *given, const nsvc
   return out;
 }
 
+static double nsvcd__kept_clearance(const nsvcd_slide_options *given, double reach) {
+  return given->clearance > 0 ? (double)given->clearance : NSVCD__USUAL_CLEARANCE * reach;
+}
+
 static nsvcd_result nsvcd__slide_begin(const nsvcd_world *world, size_t id,
                                        const nsvcd_slide_options *given, float seconds,
                                        void *workspace, size_t size,
@@ -2644,10 +2710,9 @@ static nsvcd_result nsvcd__slide_begin(const nsvcd_world *world, size_t id,
   nsvcd_result result = nsvcd__slide_check(given, seconds, velocity);
   if (!result) result = nsvcd__asker_begin(world, &asked, workspace, size, &s->ask);
   if (result) return result;
-  const double usual = NSVCD__USUAL_CLEARANCE * s->ask.shape.reach;
   s->given = given;
   s->pose = world->residents[id].given.pose;
-  s->clearance = given->clearance > 0 ? (double)given->clearance : usual;
+  s->clearance = nsvcd__kept_clearance(given, s->ask.shape.reach);
   s->margin = given->margin > 0 ? (double)given->margin : s->clearance;
   s->seconds = (double)seconds;
   s->left = s->pace = 1;
@@ -2855,6 +2920,8 @@ typedef struct nsvcd__encounter {
 
 typedef struct nsvcd__momentum {
   nsvcd__thing thing;
+  // the speed of the frame in which the body slid
+  nsvcd__d3 frame;
   size_t count, met_count;
   nsvcd__encounter encounters[NSVCD_WORLD_CONTACTS];
   // the movers that take part
@@ -2915,7 +2982,10 @@ static void nsvcd__momentum_begin(const nsvcd__crowd *crowd, nsvcd_world_mover *
     size_t j = 0;
     while (j < p->met_count && p->met[j] != met) j++;
     const nsvcd_pose *there = &crowd->world->residents[met->id].given.pose;
-    if (j == p->met_count) p->things[j] = nsvcd__thing_of(&met->how, there, &met->velocity);
+    if (j == p->met_count) {
+      p->things[j] = nsvcd__thing_of(&met->how, there, &met->velocity);
+      p->things[j].linear = nsvcd__d3_sub(p->things[j].linear, p->frame);
+    }
     at->other = nsvcd__hold_of(crowd, met->id, &p->things[j], &c->contact);
     if (!nsvcd__takes_part(crowd, m, &came, at, &p->things[j])) continue;
     const double nears =
@@ -2980,22 +3050,26 @@ static void nsvcd__set_velocity(nsvcd__thing *thing, const nsvcd_velocity *veloc
   thing->linear = nsvcd__d3_load(velocity->linear);
   thing->angular = nsvcd__d3_load(velocity->angular);
 }
-// Takes a speed half way back to what it was.
-static void nsvcd__halve_change(nsvcd__thing *thing, const nsvcd_velocity *was) {
+// Takes a speed half way back to what it was, in a frame.
+static void nsvcd__halve_change(nsvcd__thing *thing, const nsvcd_velocity *was,
+                                nsvcd__d3 frame) {
   const nsvcd__thing now = *thing;
   nsvcd__set_velocity(thing, was);
+  thing->linear = nsvcd__d3_sub(thing->linear, frame);
   thing->linear = nsvcd__d3_mix(thing->linear, now.linear, 0.5);
   thing->angular = nsvcd__d3_mix(thing->angular, now.angular, 0.5);
 }
 
-// A body has slid, and came at a speed: it and what it met share their momentum.
+// A body has slid, and came at a speed, in a frame that moves at another: it and what it met share
+// their momentum.
 static void nsvcd__share_momentum(const nsvcd__crowd *crowd, nsvcd_world_mover *m,
-                                  const nsvcd_velocity *came) {
+                                  const nsvcd_velocity *came, nsvcd__d3 frame) {
   nsvcd__momentum p;
   double most = 0;
   double change = 1;
   const double mass = m->how.mass > 0 ? 1 : (double)m->push_mass;
   if (!(mass > 0) || m->answer.rests) return;
+  p.frame = frame;
   nsvcd__momentum_begin(crowd, m, came, &p);
   if (p.met_count == 0) return;
   const nsvcd__thing slid = p.thing;
@@ -3013,9 +3087,9 @@ static void nsvcd__share_momentum(const nsvcd__crowd *crowd, nsvcd_world_mover *
   double share = 1;
   for (; nsvcd__energy_of_all(&p) > energy; share *= 0.5) {
     if (share < NSVCD__LEAST_SHARE) return;
-    nsvcd__halve_change(&p.thing, came);
+    nsvcd__halve_change(&p.thing, came, nsvcd__d3_of(0, 0, 0));
     for (size_t j = 0; j < p.met_count; j++)
-      nsvcd__halve_change(&p.things[j], &p.met[j]->velocity);
+      nsvcd__halve_change(&p.things[j], &p.met[j]->velocity, frame);
   }
   nsvcd__tell_velocity(&p.thing, &m->velocity);
   for (size_t k = 0; k < p.count; k++) {
@@ -3024,9 +3098,222 @@ static void nsvcd__share_momentum(const nsvcd__crowd *crowd, nsvcd_world_mover *
     at->contact->impulse = (float)(held + share * at->own.pushed / mass);
   }
   for (size_t j = 0; j < p.met_count; j++) {
+    p.things[j].linear = nsvcd__d3_add(p.things[j].linear, frame);
     nsvcd__tell_velocity(&p.things[j], &p.met[j]->velocity);
     if (p.met[j]->asleep) nsvcd__wake(p.met[j]);
   }
+}
+
+// ------------------------------------------------------------------------------------- world/carry
+// In: movers, and what is driven in this frame. Out: whoever stands on something driven, be it by
+// way of others, has gone along with it.
+//
+// As a lift sees it, a stack on it is at rest. So all of it moves in the frame of the lift: first
+// it goes along, at the same time as the lift; and when all that is driven has arrived, each slides
+// at the speed that it has besides, and gets that of the lift again.
+//
+// Going along is proven as any way is: against all that rests, and all that is driven or carried
+// meanwhile. A mover that is in the way is carried too, as is what a lift comes up into. Who cannot
+// go along stays, as does whoever stands on it: they slide while the lift moves, as those do who
+// stand on nothing driven.
+
+// radians: what turns by more in a frame carries nobody
+#define NSVCD__CARRIES_TURN 0.5
+// metres a second: what carries a point as fast as another to this does so as one with it
+#define NSVCD__CARRIES_SAME 1e-3
+// of the clearance: how near those who are carried may come to what moves with them, by rounding
+#define NSVCD__CARRIES_WITHIN 0.5f
+// rounds in which those who stay are found; then all stay
+#define NSVCD__CARRY_ROUNDS 20
+
+static nsvcd__d3 nsvcd__mover_centre(const nsvcd__crowd *crowd, const nsvcd_world_mover *m) {
+  const nsvcd__resident *r = &crowd->world->residents[m->id];
+  return nsvcd__pivot_of(&r->given.pose, r->shape.pivot);
+}
+
+// How fast a driven body takes a point along that is there now, metres a second; 0: it is not
+// driven.
+static nsvcd__d3 nsvcd__takes_along(const nsvcd__crowd *crowd, const nsvcd__resident *r,
+                                    nsvcd__d3 point) {
+  if (!r->is_driven) return nsvcd__d3_of(0, 0, 0);
+  const nsvcd__dpose from = nsvcd__dpose_of(&r->given.pose);
+  const nsvcd__d3 moved = nsvcd__moved_along(&from, &r->to, point);
+  return nsvcd__d3_over(moved, (double)crowd->seconds);
+}
+
+// The next body beneath a mover, as it was after its last slide, from contact *n on; or NULL.
+static const nsvcd__resident *nsvcd__next_beneath(const nsvcd__crowd *crowd,
+                                                  const nsvcd_world_mover *m, size_t *n) {
+  while (*n < m->answer.contact_count && *n < NSVCD_WORLD_CONTACTS) {
+    const nsvcd_world_contact *c = &m->answer.contacts[(*n)++];
+    const nsvcd__resident *r = nsvcd__resident_of(crowd->world, c->body);
+    if (r && nsvcd__d3_dot(nsvcd__d3_load(c->contact.normal), crowd->up) > 0.5) return r;
+  }
+  return NULL;
+}
+
+// Which driven body carries a mover; or nobody. Who stands on something else too slides.
+static uint32_t nsvcd__carrier_of(const nsvcd__crowd *crowd, const nsvcd_world_mover *m) {
+  const nsvcd__resident *all = crowd->world->residents;
+  const nsvcd__d3 centre = nsvcd__mover_centre(crowd, m);
+  const nsvcd__resident *r;
+  nsvcd__d3 goes = {0, 0, 0};
+  uint32_t out = all[m->id].joins;
+  if (all[m->id].stays || out) return all[m->id].stays ? NSVCD_NOBODY : out;
+  for (size_t n = 0; (r = nsvcd__next_beneath(crowd, m, &n)) != NULL;) {
+    const uint32_t id = r->carrier ? r->carrier : r->is_driven ? (uint32_t)(r - all) : 0;
+    const nsvcd__d3 other = nsvcd__takes_along(crowd, &all[id], centre);
+    const double differs = out ? nsvcd__d3_norm(nsvcd__d3_sub(other, goes)) : 0;
+    if (!id || differs > NSVCD__CARRIES_SAME) return NSVCD_NOBODY;
+    if (!out) goes = other;
+    if (!out) out = id;
+  }
+  return out;
+}
+
+// Has a mover go along with a driven body, over the frame as that does; or, with nobody, stay.
+static void nsvcd__carry(const nsvcd__crowd *crowd, nsvcd_world_mover *m, uint32_t carrier) {
+  nsvcd_world *world = crowd->world;
+  nsvcd__resident *r = &world->residents[m->id];
+  const nsvcd__resident *by = &world->residents[carrier];
+  const nsvcd_pose stays = r->given.pose;
+  int goes = carrier != NSVCD_NOBODY;
+  if (goes) {
+    const nsvcd__slerp slerp = nsvcd__slerp_of(&by->given.pose, &by->to);
+    const nsvcd__dpose from = nsvcd__dpose_of(&by->given.pose);
+    const nsvcd__d3 turn = nsvcd__slerp_turn(&slerp);
+    nsvcd__dpose to = nsvcd__unit_dpose(&stays);
+    const nsvcd__dquat by_turn =
+        nsvcd__dquat_mul(slerp.end, nsvcd__dquat_inverse(slerp.start));
+    to.position = nsvcd__d3_add(to.position, nsvcd__moved_along(&from, &by->to, to.position));
+    to.rotation = nsvcd__dquat_mul(by_turn, to.rotation);
+    const nsvcd_pose end = nsvcd__dpose_round(&to);
+    r->goes = nsvcd__takes_along(crowd, by, nsvcd__mover_centre(crowd, m));
+    r->turns = nsvcd__d3_over(turn, (double)crowd->seconds);
+    goes = nsvcd__d3_norm(turn) < NSVCD__CARRIES_TURN &&
+           !nsvcd__world_place(world, m->id, &end, 1);
+    if (m->asleep) nsvcd__wake(m);
+  }
+  r->stays |= carrier && !goes;
+  r->carrier = goes ? carrier : NSVCD_NOBODY;
+  if (!goes) (void)nsvcd__world_place(world, m->id, &stays, 0);
+}
+
+// Turns a mover into one who asks whether it is free.
+static nsvcd_result nsvcd__carried_asker(const nsvcd__crowd *crowd, const nsvcd_world_mover *m,
+                                         void *workspace, size_t size, nsvcd__asker *q) {
+  const nsvcd__resident *r = &crowd->world->residents[m->id];
+  nsvcd_world_question asked;
+  memset(&asked, 0, sizeof asked);
+  asked.self = m->id;
+  asked.question.clearance = (float)nsvcd__kept_clearance(&m->how, r->shape.reach);
+  asked.question.work = m->how.work ? m->how.work : NSVCD_DEFAULT_SLIDE_WORK;
+  return nsvcd__asker_begin(crowd->world, &asked, workspace, size, q);
+}
+
+// What is driven up into a mover where it is lifts it, as what it stands on does; or nobody.
+static uint32_t nsvcd__lifter_of(const nsvcd__crowd *crowd, const nsvcd_world_mover *m,
+                                 void *workspace, size_t size, nsvcd_step_answer *out) {
+  const nsvcd__d3 centre = nsvcd__mover_centre(crowd, m);
+  uint32_t found = NSVCD_NOBODY;
+  nsvcd__asker q;
+  if (nsvcd__carried_asker(crowd, m, workspace, size, &q)) return found;
+  for (uint32_t id = 0; !found && (id = nsvcd__asker_next(&q, id)) != 0;) {
+    const nsvcd__resident *o = &crowd->world->residents[id];
+    const nsvcd__d3 goes = nsvcd__takes_along(crowd, o, centre);
+    nsvcd_answer answer;
+    if (o->carrier || !(nsvcd__d3_dot(goes, crowd->up) > 0.5 * nsvcd__d3_norm(goes))) continue;
+    if (nsvcd__ask_about(&q, id, &answer) && answer.verdict != NSVCD_FREE) found = id;
+  }
+  out->questions += q.questions;
+  out->work += q.work;
+  return found;
+}
+
+// Is the way on which a mover is carried free? What is known since neither of two has changed is
+// not asked again. If it is not, the mover stays, or what it meets is carried too.
+static int nsvcd__may_go_along(const nsvcd__crowd *crowd, const nsvcd_world_mover *m,
+                               void *workspace, size_t size, nsvcd_step_answer *out) {
+  nsvcd__asker q;
+  nsvcd_world *world = crowd->world;
+  nsvcd__resident *r = &world->residents[m->id];
+  const nsvcd_pose way[2] = {r->given.pose, r->to};
+  r->stays = nsvcd__carried_asker(crowd, m, workspace, size, &q) != NSVCD_OK;
+  if (r->stays) return 0;
+  const float clearance = q.question.clearance;
+  nsvcd__asker_goes(&q, way, 2);
+  int is_free = 1;
+  for (uint32_t id = 0; is_free && (id = nsvcd__asker_next(&q, id)) != 0;) {
+    nsvcd__resident *o = &world->residents[id];
+    const uint64_t moved = r->moved > o->moved ? r->moved : o->moved;
+    nsvcd_answer answer;
+    if (r->proven >= moved || o->proven >= moved) continue;
+    q.question.clearance = o->is_driven ? NSVCD__CARRIES_WITHIN * clearance : clearance;
+    is_free = nsvcd__ask_about(&q, id, &answer) && answer.verdict == NSVCD_FREE;
+    if (is_free) continue;
+    const int may_join = nsvcd__mover_with(crowd, id) && !o->is_driven && !o->stays;
+    if (may_join) o->joins = r->carrier;
+    r->stays = !may_join;
+  }
+  if (is_free) r->proven = world->clock;
+  out->questions += q.questions;
+  out->work += q.work;
+  return is_free;
+}
+
+// Finds who is carried, by what and how far, and has them go there.
+static void nsvcd__carry_all(const nsvcd__crowd *crowd, void *workspace, size_t size,
+                             nsvcd_step_answer *out) {
+  const nsvcd_world *world = crowd->world;
+  int more = 1;
+  for (int round = 0; more; round++) {
+    more = 0;
+    // the lowest first: what it stands on comes before it
+    for (size_t k = 0; k < crowd->count; k++) {
+      nsvcd_world_mover *m = &crowd->movers[world->turns[k].mover];
+      nsvcd__resident *r = &world->residents[m->id];
+      if (r->is_driven && !r->carrier) continue;
+      r->stays |= round >= NSVCD__CARRY_ROUNDS;
+      uint32_t carrier = nsvcd__carrier_of(crowd, m);
+      if (!carrier && round == 0)
+        carrier = r->joins = nsvcd__lifter_of(crowd, m, workspace, size, out);
+      if (carrier != r->carrier) nsvcd__carry(crowd, m, carrier);
+    }
+    for (size_t k = 0; k < crowd->count; k++) {
+      const nsvcd_world_mover *m = &crowd->movers[world->turns[k].mover];
+      if (world->residents[m->id].carrier)
+        more |= !nsvcd__may_go_along(crowd, m, workspace, size, out);
+    }
+  }
+  for (size_t k = 0; k < crowd->count; k++) {
+    nsvcd__resident *r = &world->residents[crowd->movers[k].id];
+    const nsvcd_pose to = r->to;
+    const nsvcd_world_mover *m = &crowd->movers[k];
+    if (!r->carrier) continue;
+    (void)nsvcd__world_place(crowd->world, m->id, &to, 0);
+    if (!(m->how.mass > 0)) continue;
+    r->slips = nsvcd__d3_sub(nsvcd__d3_load(m->velocity.linear), r->goes);
+  }
+}
+
+static void nsvcd__end_carrying(const nsvcd_world *world) {
+  for (uint32_t id = 1; id <= world->count; id++) {
+    nsvcd__resident *r = &world->residents[id];
+    r->carrier = r->joins = NSVCD_NOBODY;
+    r->proven = 0;
+    r->stays = 0;
+    r->slips = nsvcd__d3_of(0, 0, 0);
+  }
+}
+
+// Adds to a velocity, so many times, that of what carries a mover.
+static void nsvcd__add_carried(const nsvcd__d3 linear, const nsvcd__d3 angular, double times,
+                               nsvcd_velocity *velocity) {
+  nsvcd__thing thing;
+  memset(&thing, 0, sizeof thing);
+  thing.linear = nsvcd__d3_fma(times, linear, nsvcd__d3_load(velocity->linear));
+  thing.angular = nsvcd__d3_fma(times, angular, nsvcd__d3_load(velocity->angular));
+  nsvcd__tell_velocity(&thing, velocity);
 }
 
 // -------------------------------------------------------------------------------------- world/step
@@ -3162,9 +3449,8 @@ static int nsvcd__wake_near_driven(const nsvcd__crowd *crowd) {
   double within = 0;
   for (size_t k = 0; k < crowd->count; k++) {
     const nsvcd_slide_options *how = &crowd->movers[k].how;
-    const double usual =
-        NSVCD__USUAL_CLEARANCE * world->residents[crowd->movers[k].id].shape.reach;
-    const double clearance = how->clearance > 0 ? (double)how->clearance : usual;
+    const double reach = world->residents[crowd->movers[k].id].shape.reach;
+    const double clearance = nsvcd__kept_clearance(how, reach);
     const double margin = how->margin > 0 ? (double)how->margin : clearance;
     within = nsvcd__max(within, clearance + 2 * margin);
   }
@@ -3192,64 +3478,16 @@ static void nsvcd__grow_calm(const nsvcd__crowd *crowd, nsvcd_world_mover *m) {
   memset(&m->velocity, 0, sizeof m->velocity);
 }
 
-// ---- lifts
-
-// How fast a driven body takes a point along that is there now, metres a second; 0: it is not
-// driven.
-static nsvcd__d3 nsvcd__takes_along(const nsvcd__crowd *crowd, const nsvcd__resident *r,
-                                    nsvcd__d3 point) {
-  if (!r->is_driven) return nsvcd__d3_of(0, 0, 0);
-  const nsvcd__dpose from = nsvcd__dpose_of(&r->given.pose);
-  const nsvcd__d3 moved = nsvcd__moved_along(&from, &r->to, point);
-  return nsvcd__d3_over(moved, (double)crowd->seconds);
-}
-
-// The next body beneath a mover, as it was after its last slide, from contact *n on; or NULL.
-static const nsvcd__resident *nsvcd__next_beneath(const nsvcd__crowd *crowd,
-                                                  const nsvcd_world_mover *m, size_t *n) {
-  while (*n < m->answer.contact_count && *n < NSVCD_WORLD_CONTACTS) {
-    const nsvcd_world_contact *c = &m->answer.contacts[(*n)++];
-    const nsvcd__resident *r = nsvcd__resident_of(crowd->world, c->body);
-    if (r && nsvcd__d3_dot(nsvcd__d3_load(c->contact.normal), crowd->up) > 0.5) return r;
-  }
-  return NULL;
-}
-
-static nsvcd__d3 nsvcd__mover_centre(const nsvcd__crowd *crowd, const nsvcd_world_mover *m) {
-  const nsvcd__resident *r = &crowd->world->residents[m->id];
-  return nsvcd__pivot_of(&r->given.pose, r->shape.pivot);
-}
-
-// Finds who stands, by way of others, on what rises: they have to go first, and the highest before
-// all, or those beneath are caught. Going up, each mover knows how fast that beneath it rises.
-static void nsvcd__find_rising(const nsvcd__crowd *crowd) {
-  const nsvcd_world *world = crowd->world;
-  for (size_t k = 0; k < crowd->count; k++) {
-    nsvcd_world_mover *m = &crowd->movers[world->turns[k].mover];
-    const nsvcd__resident *r;
-    double rise = 0;
-    int is_direct = 0;
-    for (size_t n = 0; (r = nsvcd__next_beneath(crowd, m, &n)) != NULL;) {
-      const nsvcd__d3 goes = nsvcd__takes_along(crowd, r, nsvcd__mover_centre(crowd, m));
-      const double lifts =
-          r->is_driven ? nsvcd__d3_dot(goes, crowd->up) : fabs((double)r->rise);
-      is_direct |= r->is_driven && lifts > 0;
-      rise = nsvcd__max(rise, lifts);
-    }
-    // whoever stands on it directly waits for those above
-    world->residents[m->id].rise = (float)(is_direct ? -rise : rise);
-    if (rise > 0 && m->asleep) nsvcd__wake(m);
-  }
-}
-
 // ---- a frame
 
 // Gives a mover what gravity adds to its speed, less what brakes it, as seen from what it stands
 // on.
 static void nsvcd__pull_and_brake(const nsvcd__crowd *crowd, nsvcd_world_mover *m) {
+  const int is_carried = crowd->world->residents[m->id].carrier != NSVCD_NOBODY;
   const int is_braked = m->answer.contact_count > 0 && m->how.mass > 0 && m->how.friction > 0;
-  const int is_slow =
-      is_braked && nsvcd__mover_speed(crowd, m) < NSVCD__NEARLY_QUIET * crowd->quiet;
+  // a lift that speeds up would hold by brakes what friction does not
+  const int is_slow = is_braked && !is_carried &&
+                      nsvcd__mover_speed(crowd, m) < NSVCD__NEARLY_QUIET * crowd->quiet;
   const double quiet = is_slow ? NSVCD__BRAKES_QUIET : 0;
   const double speed = is_braked ? nsvcd__max(NSVCD__BRAKES_SPEED, quiet) : 0;
   const double spin = is_braked ? nsvcd__max(NSVCD__BRAKES_SPIN, quiet) : 0;
@@ -3269,29 +3507,31 @@ static void nsvcd__pull_and_brake(const nsvcd__crowd *crowd, nsvcd_world_mover *
   nsvcd__tell_velocity(&thing, &m->velocity);
 }
 
-// Has a mover go up at least as fast as what it stands on.
-static void nsvcd__raise(const nsvcd__crowd *crowd, const nsvcd__resident *r,
-                         nsvcd_velocity *velocity) {
-  const nsvcd__d3 linear = nsvcd__d3_load(velocity->linear);
-  const double lacks = nsvcd__max((double)r->rise - nsvcd__d3_dot(linear, crowd->up), 0);
-  nsvcd__f3_store(nsvcd__f3_round(nsvcd__d3_fma(lacks, crowd->up, linear)), velocity->linear);
-}
-
 static nsvcd_result nsvcd__step_mover(const nsvcd__crowd *crowd, nsvcd_world_mover *m,
                                       void *workspace, size_t size, nsvcd_step_answer *out) {
   nsvcd__resident *r = &crowd->world->residents[m->id];
   if (m->asleep || r->is_driven) return NSVCD_OK;
   const nsvcd_velocity was = m->velocity;
+  const int is_carried = r->carrier != NSVCD_NOBODY;
+  const nsvcd__d3 none = {0, 0, 0};
+  // a character's speed is its own already
+  const int is_thing = is_carried && m->how.mass > 0;
+  const nsvcd__d3 goes = is_carried ? r->goes : none;
+  const nsvcd__d3 turns = is_carried ? r->turns : none;
+  if (is_thing) nsvcd__add_carried(goes, turns, -1, &m->velocity);
   nsvcd__pull_and_brake(crowd, m);
-  if (r->rise > 0) nsvcd__raise(crowd, r, &m->velocity);
-  const nsvcd_velocity came = m->velocity;
+  nsvcd_velocity came = m->velocity;
   const nsvcd_result result = nsvcd_world_slide(crowd->world, m->id, &m->how, crowd->seconds,
                                                 workspace, size, &m->velocity, &m->answer);
   if (result) {
     m->velocity = was;
     return result;
   }
-  nsvcd__share_momentum(crowd, m, &came);
+  if (is_thing) nsvcd__add_carried(none, turns, 1, &came);
+  if (is_thing) nsvcd__add_carried(none, turns, 1, &m->velocity);
+  nsvcd__share_momentum(crowd, m, &came, goes);
+  r->slips = is_thing ? nsvcd__d3_load(m->velocity.linear) : none;
+  if (is_thing) nsvcd__add_carried(goes, none, 1, &m->velocity);
   out->awake++;
   out->caught += m->answer.caught != NSVCD_NOBODY;
   out->contacts += m->answer.contact_count;
@@ -3323,25 +3563,28 @@ NSVCDDEF nsvcd_result nsvcd_world_step(nsvcd_world *world, nsvcd_world_mover *mo
     if (was_woken || (m->asleep && nsvcd__is_disturbed(&crowd, m))) nsvcd__wake(m);
   }
   const int is_driven = nsvcd__wake_near_driven(&crowd);
-  for (size_t k = 0; k < count; k++) world->residents[movers[k].id].rise = 0;
-  if (is_driven) nsvcd__find_rising(&crowd);
-  for (size_t k = is_driven ? 0 : count; k < 2 * count; k++) {
-    const int goes_up = k < count;  // from the highest on
-    nsvcd_world_mover *m = &movers[world->turns[goes_up ? count - 1 - k : k - count].mover];
-    if ((world->residents[m->id].rise > 0) != goes_up) continue;
-    const nsvcd_result said = nsvcd__step_mover(&crowd, m, workspace, workspace_size, &out);
-    if (said && !result) {
-      result = said;
-      out.refused = m->id;
+  if (is_driven) nsvcd__carry_all(&crowd, workspace, workspace_size, &out);
+  // who is carried slides when all that is driven has arrived
+  for (int carried = 0; carried <= is_driven; carried++) {
+    for (size_t k = 0; k < count; k++) {
+      nsvcd_world_mover *m = &movers[world->turns[k].mover];
+      if ((world->residents[m->id].carrier != NSVCD_NOBODY) != carried) continue;
+      const nsvcd_result said = nsvcd__step_mover(&crowd, m, workspace, workspace_size, &out);
+      if (said && !result) {
+        result = said;
+        out.refused = m->id;
+      }
     }
+    const nsvcd_result arrives = nsvcd_world_arrive(world);
+    if (!result) result = arrives;
   }
   for (size_t k = 0; k < count; k++) {
     nsvcd__grow_calm(&crowd, &movers[k]);
     out.asleep += movers[k].asleep != 0;
   }
-  const nsvcd_result arrives = nsvcd_world_arrive(world);
+  if (is_driven) nsvcd__end_carrying(world);
   if (answer) *answer = out;
-  return result ? result : arrives;
+  return result;
 }
 
 // -------------------------------------------------------------------------------------- world/mass

@@ -553,7 +553,7 @@ world: a driven body at rest|mover->count = q->at_once ? 1 : 2;|mover->count = 1
 world: groups pass one way|!(groups \& other->passes) \&\& !(other->groups \& passes)|!(groups \& other->passes)
 world: pairs of what is fixed|if (n <= id \|\| (a->given.fixed \&\& b->given.fixed)) continue;|if (n <= id) continue;
 world: ids are lost|world->free = (uint32_t)id;|
-world: a box without the clearance|(double)q->question.clearance + (double)q->question.tolerance;|0;
+world: a box without the clearance|(double)q->question.clearance + (double)q->question.tolerance +|0 * (double)q->question.tolerance +
 world: the last time|t->time.low = fminf(t->time.low, answer->time.low);|t->time.low = answer->time.low;
 world: safe of the first body|if (t->safe_by \&\& answer->safe.time >= t->safe_time) return;|if (t->safe_by) return;
 world: push-outs in sum|depths[k] - nsvcd__d3_dot(out, normals[k]);|depths[k];
@@ -564,7 +564,7 @@ world: changes within changes|if (world->changes \& 1) return 0;|
 world: a list as it comes|for (; at > 0 \&\& ids[at - 1] > id; at--)|for (; at > most;)
 slide: driven bodies from their start|s->ask.since = 1 - s->left;\n  s->ask.at_once = at_once;|s->ask.since = 0;\n  s->ask.at_once = at_once;
 slide: half the clearance|s->ask.question.clearance = (float)s->clearance;|s->ask.question.clearance = 0.5f * (float)s->clearance;
-slide: driven bodies without a speed|h->speed = nsvcd__driven_speed(s, s->contacts[k].body, on_other);|
+slide: driven bodies without a speed|const nsvcd__d3 driven = nsvcd__driven_speed(s, s->contacts[k].body, on_other);|const nsvcd__d3 driven = {0 * on_other.x, 0, 0};
 slide: nobody is caught|if (free_until < 1) out.caught = s.met;|
 slide: no way out|return nsvcd__push_off(s) \|\| gone > 0;|return gone > 0;
 slide: few rounds before doors|nsvcd__met_driven(\&s) ? 4 * rounds : rounds|rounds
@@ -589,8 +589,14 @@ slide: flies off kerbs|if (stood) nsvcd__stop_climbing(\&s);|
 slide: jumps are eaten|if (s->jumps) return;|
 slide: kerbs eat jumps|if (!(s->given->step > 0) \|\| s->jumps) return 0;|if (!(s->given->step > 0)) return 0;
 slide: edges at rest on trains|nsvcd__climb(s);\n    nsvcd__ride(s);|nsvcd__climb(s);
-step: who rises waits|if ((world->residents[m->id].rise > 0) != goes_up) continue;|if (goes_up) continue;
-step: who rises is not raised|if (r->rise > 0) nsvcd__raise(|if (0) nsvcd__raise(
+step: going along is no way|is_free = nsvcd__ask_about(\&q, id, \&answer) \&\& answer.verdict == NSVCD_FREE;|is_free = 1;
+step: known whatever moved|if (r->proven >= moved \|\| o->proven >= moved) continue;|if (r->proven \|\| o->proven) continue;
+step: a lift passes through|if (nsvcd__ask_about(\&q, id, \&answer) \&\& answer.verdict != NSVCD_FREE) found = id;|(void)0;
+step: who is in the way stays|if (may_join) o->joins = r->carrier;|
+step: as fast as the world sees it|if (is_thing) nsvcd__add_carried(goes, turns, -1, \&m->velocity);|
+step: those carried see no slip|if (!r->carrier) return nsvcd__d3_of(0, 0, 0);|return nsvcd__d3_of(0, 0, 0);
+step: brakes hold what is carried|is_braked \&\& !is_carried \&\&|is_braked \&\&
+world: boxes in a frame without the way|nsvcd__boxes_meet_in(\&a->poses[0], \&q->shape, a->poses, a->count, q->apart,|nsvcd__boxes_meet_in(\&a->poses[0], \&q->shape, a->poses, 1, q->apart,
 step: movers of the array's order|return a.height < b.height;|return a.mover < b.mover;
 step: a mover twice|if (!r \|\| r->mover != k \|\| r->given.fixed)|if (!r \|\| r->given.fixed)
 step: what is fixed moves|r->mover != k \|\| r->given.fixed)|r->mover != k)

@@ -43,6 +43,10 @@ static nsvcd__thing nsvcd__thing_of(const nsvcd_slide_options *given, const nsvc
   return out;
 }
 
+static double nsvcd__kept_clearance(const nsvcd_slide_options *given, double reach) {
+  return given->clearance > 0 ? (double)given->clearance : NSVCD__USUAL_CLEARANCE * reach;
+}
+
 static nsvcd_result nsvcd__slide_begin(const nsvcd_world *world, size_t id,
                                        const nsvcd_slide_options *given, float seconds,
                                        void *workspace, size_t size,
@@ -57,10 +61,9 @@ static nsvcd_result nsvcd__slide_begin(const nsvcd_world *world, size_t id,
   nsvcd_result result = nsvcd__slide_check(given, seconds, velocity);
   if (!result) result = nsvcd__asker_begin(world, &asked, workspace, size, &s->ask);
   if (result) return result;
-  const double usual = NSVCD__USUAL_CLEARANCE * s->ask.shape.reach;
   s->given = given;
   s->pose = world->residents[id].given.pose;
-  s->clearance = given->clearance > 0 ? (double)given->clearance : usual;
+  s->clearance = nsvcd__kept_clearance(given, s->ask.shape.reach);
   s->margin = given->margin > 0 ? (double)given->margin : s->clearance;
   s->seconds = (double)seconds;
   s->left = s->pace = 1;

@@ -86,6 +86,12 @@ static nsvcd__d3 nsvcd__driven_speed(const nsvcd__slide *s, size_t id, nsvcd__d3
   return nsvcd__d3_scale(moved, 1 / (s->left * s->seconds));
 }
 
+// How fast what is carried slips along a contact: it has moved already, and only friction sees it.
+static nsvcd__d3 nsvcd__slip_of(const nsvcd__resident *r, nsvcd__d3 normal) {
+  if (!r->carrier) return nsvcd__d3_of(0, 0, 0);
+  return nsvcd__d3_fma(-nsvcd__d3_dot(r->slips, normal), normal, r->slips);
+}
+
 // Finds all contacts at the pose now, behind those that have pushed, and what they ask for.
 static void nsvcd__slide_look(nsvcd__slide *s) {
   const nsvcd__d3 pivot = nsvcd__pivot_at(s);
@@ -109,7 +115,9 @@ static void nsvcd__slide_look(nsvcd__slide *s) {
     memset(h, 0, sizeof *h);
     h->normal = nsvcd__d3_load(c->normal);
     const nsvcd__d3 on_other = nsvcd__d3_load(c->point);
-    h->speed = nsvcd__driven_speed(s, s->contacts[k].body, on_other);
+    const nsvcd__d3 driven = nsvcd__driven_speed(s, s->contacts[k].body, on_other);
+    h->speed = nsvcd__d3_add(
+        driven, nsvcd__slip_of(&s->ask.world->residents[s->contacts[k].body], h->normal));
     h->arm = nsvcd__d3_sub(nsvcd__d3_fma((double)c->gap, h->normal, on_other), pivot);
     h->lacks = s->clearance + 0.5 * s->margin - (double)c->gap;
     h->least = nsvcd__min(s->clearance + s->margin - (double)c->gap, 0) / time;
