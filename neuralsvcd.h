@@ -1704,6 +1704,7 @@ NSVCDDEF nsvcd_result nsvcd_plan(const nsvcd_plan_problem *problem,
 //     witnesses       two triangles that meet at one time
 //     patch_pairs     two patches: separated, or in contact
 //     containment     whether one body is inside the other, by rays
+//     in_order        a small mover: what it comes to first is searched first
 //     loop            every patch pair that a search finds is resolved
 //     distance_bound  a distance that two vertices have: the first bound
 //   network: an opinion
@@ -11171,6 +11172,9 @@ static float nsvcd__interval_gap(const nsvcd__motion *m, uint32_t from, uint32_t
 #define NSVCD__FINER 2
 // Segments that are searched together where the first contact is sought.
 #define NSVCD__IN_ORDER 4
+// Segments, at most, of a motion whose body, if it is one group, is searched in the order in which
+// it comes to patches.
+#define NSVCD__FEW_SEGMENTS 4
 // If that exhausts its budget, the motion is proven part by part: the length of the first one, in
 // segments; and the budget of a part besides eight times that of the part before.
 #define NSVCD__FIRST_PART 0.0625
@@ -11549,7 +11553,7 @@ typedef struct nsvcd__memo {
   // segments that have been made intervals
   uint64_t intervals;
   // The normal of the plane between hulls that held last, and its number, 0: none; and the heights
-  // of moving and of fixed patches over it.
+  // of moving and of fixed patches over it. Without a plane these are not even zeros.
   nsvcd__f3 held;
   uint32_t plane;
   nsvcd__height heights[NSVCD__HEIGHTS], fixed_heights[NSVCD__FIXED_HEIGHTS];
@@ -11702,8 +11706,10 @@ static float nsvcd__errors_of(const nsvcd__proof *p, size_t i, size_t j) {
 
 // Turns to a motion. None of its arcs is known, nor any pose.
 static void nsvcd__arcs_begin(nsvcd__arcs *arcs, nsvcd__motion *motion) {
-  memset(arcs, 0, sizeof *arcs);
   arcs->motion = motion;
+  arcs->arc.ticks = 0;
+  arcs->next = 0;
+  for (size_t n = 0; n < NSVCD__KNOWN_POSES; n++) arcs->poses[n].ticks = 0;
 }
 
 // Answers in float cannot tell things apart that are nearer to each other than this.
@@ -12955,15 +12961,18 @@ static nsvcd__v3 nsvcd__v_shorter_turn(nsvcd__vquat a, nsvcd__vquat b, nsvcd__v 
 static void nsvcd__keyframes_read(const nsvcd__motion *m, const uint32_t *ticks, size_t count,
                                   nsvcd__keyframes *out) {
   nsvcd__world_pose fixed = {{0, 0, 0, 1}, nsvcd__d3_widen(m->fixed_position)};
+  nsvcd__world_pose moving = fixed;
+  nsvcd__f3 offset = {0, 0, 0};
   for (size_t l = 0; l < count; l++) {
-    const nsvcd__world_pose moving = nsvcd__track_pose(&m->moving, ticks[l]);
-    nsvcd__quat_put(moving.rotation, out->moving + l, NSVCD__ENDS);
-    if (m->fixed_moves) {
-      fixed = nsvcd__track_pose(&m->fixed, ticks[l]);
-      nsvcd__quat_put(fixed.rotation, out->fixed + l, NSVCD__ENDS);
+    // segments of no length have the pose before
+    if (l == 0 || ticks[l] != ticks[l - 1]) {
+      moving = nsvcd__track_pose(&m->moving, ticks[l]);
+      if (m->fixed_moves) fixed = nsvcd__track_pose(&m->fixed, ticks[l]);
+      offset = nsvcd__d3_narrow(nsvcd__d3_sub(moving.position, fixed.position));
     }
-    const nsvcd__d3 offset = nsvcd__d3_sub(moving.position, fixed.position);
-    nsvcd__f3_put(nsvcd__d3_narrow(offset), out->offset + l, NSVCD__ENDS);
+    nsvcd__quat_put(moving.rotation, out->moving + l, NSVCD__ENDS);
+    nsvcd__f3_put(offset, out->offset + l, NSVCD__ENDS);
+    if (m->fixed_moves) nsvcd__quat_put(fixed.rotation, out->fixed + l, NSVCD__ENDS);
   }
 }
 
@@ -14386,6 +14395,11 @@ static nsvcd__slerp nsvcd__slerp_in(const nsvcd__track *track, uint32_t first, u
   return out;
 }
 
+// Does the moving body turn, or the fixed one move? If not, the rotation stays that at the start.
+static int nsvcd__turns(const nsvcd__arc *arc) {
+  return arc->turn > 0 || arc->fixed_moves;
+}
+
 // The arc that begins at the keyframe `first`.
 static const nsvcd__arc *nsvcd__arc_at(nsvcd__arcs *arcs, uint32_t first) {
   const nsvcd__motion *m = arcs->motion;
@@ -14434,6 +14448,7 @@ static const nsvcd__arc *nsvcd__arc_at(nsvcd__arcs *arcs, uint32_t first) {
   const nsvcd__dmat3 moving = nsvcd__dmat3_of(nsvcd__slerp_at(&arc->moving, 0));
   const double arm = nsvcd__d3_norm(arc->pivot);
   arc->turn = nsvcd__d3_norm(turn);
+  if (!nsvcd__turns(arc)) arc->moving.start = nsvcd__slerp_at(&arc->moving, 0);
   arc->speed = nsvcd__d3_norm(arc->moved) + swing + arc->turn * arm;
   arc->twist = 0.1250001 * arc->scale * twist;
   arc->origin_bend = 0.1250001 * (2 * across + angle * swing);
@@ -14453,7 +14468,7 @@ static int nsvcd__is_straight(const nsvcd__arc *arc) {
 // The true pose at fraction u of the arc, as the fixed body sees it. Its rotation is times the
 // moving body's scale.
 static nsvcd__dtransform nsvcd__dtransform_at(const nsvcd__arc *arc, double u) {
-  nsvcd__dquat q = nsvcd__slerp_at(&arc->moving, u);
+  nsvcd__dquat q = nsvcd__turns(arc) ? nsvcd__slerp_at(&arc->moving, u) : arc->moving.start;
   nsvcd__dtransform at;
   at.position = nsvcd__d3_add(arc->from, nsvcd__d3_scale(arc->moved, u));
   if (arc->fixed_moves) {
@@ -14480,9 +14495,11 @@ static const nsvcd__dtransform *nsvcd__arc_pose(nsvcd__arcs *arcs, double u) {
     if (known->arc == arc->first && known->ticks == arc->ticks && known->u == u) break;
   }
   if (n == NSVCD__KNOWN_POSES) {
-    const nsvcd__known_pose made = {arc->first, arc->ticks, u, nsvcd__dtransform_at(arc, u)};
     n = next;
-    arcs->poses[n] = made;
+    arcs->poses[n].transform = nsvcd__dtransform_at(arc, u);
+    arcs->poses[n].arc = arc->first;
+    arcs->poses[n].ticks = arc->ticks;
+    arcs->poses[n].u = u;
   }
   if (n == next) arcs->next = (n + 1) % NSVCD__KNOWN_POSES;
   return &arcs->poses[n].transform;
@@ -14536,12 +14553,12 @@ static const nsvcd__interval *nsvcd__segment_interval(nsvcd__solver *w, const ns
 static nsvcd__interval nsvcd__interval_of_arc(nsvcd__proof *p, uint32_t first, double u0,
                                               double u1) {
   const nsvcd__arc *arc = nsvcd__arc_at(&p->arcs, first);
-  const nsvcd__dtransform start = nsvcd__dtransform_at(arc, u0);
-  const nsvcd__dtransform end = nsvcd__dtransform_at(arc, u1);
+  const nsvcd__dtransform *start = nsvcd__arc_pose(&p->arcs, u0);
+  const nsvcd__dtransform *end = nsvcd__arc_pose(&p->arcs, u1);
   const double square = (u1 - u0) * (u1 - u0);
   nsvcd__interval out;
-  out.start = nsvcd__transform_of(&start);
-  out.end = nsvcd__transform_of(&end);
+  out.start = nsvcd__transform_of(start);
+  out.end = nsvcd__transform_of(end);
   const float extent_start = nsvcd__f3_norm(out.start.position);
   const float extent = extent_start + nsvcd__f3_norm(out.end.position);
   out.bend = (float)(square * (arc->bend + arc->twist) * 1.000001);
@@ -14553,6 +14570,11 @@ static nsvcd__interval nsvcd__interval_of_arc(nsvcd__proof *p, uint32_t first, d
   const double wavers = square * (arc->bend * arc->waver + arc->twist);
   out.bend_along_axis = fminf((float)wavers + 1e-6f * out.bend, out.bend);
   return out;
+}
+
+// Does any point leave its chord?
+static int nsvcd__may_bend(const nsvcd__interval *over) {
+  return over->bend > 0 || over->origin_bend > 0;
 }
 
 // The axis in the moving body's frame, unit.
@@ -14577,9 +14599,11 @@ static nsvcd__arm nsvcd__arm_of(nsvcd__f3 centre, float radius, nsvcd__f3 axis) 
   return out;
 }
 
-// Of a patch's pieces.
+// Of a patch's pieces; none where nothing bends.
 static nsvcd__arm nsvcd__patch_arm(const nsvcd__geometry *f, size_t patch,
                                    const nsvcd__interval *over) {
+  const nsvcd__arm none = {0, 0};
+  if (!nsvcd__may_bend(over)) return none;
   const float radius = nsvcd__body_r(f->body)[patch];
   return nsvcd__arm_of(nsvcd__patch_centre(f, patch), radius, nsvcd__own_axis(over));
 }
@@ -14600,6 +14624,7 @@ static float nsvcd__bend_of(const nsvcd__interval *over, nsvcd__arm arm) {
 //   |n.D x| <= |n.axis| |D^T axis| |x| + |n x axis| |D x|
 // and |n.d| is bounded in the same way, or with the heading in place of the axis.
 static float nsvcd__deviation_of(const nsvcd__interval *over, nsvcd__f3 n, nsvcd__arm arm) {
+  if (!nsvcd__may_bend(over)) return 0;
   const float along = fabsf(nsvcd__f3_dot(n, over->axis));
   const float across = nsvcd__f3_norm(nsvcd__f3_cross(n, over->axis));
   const float ahead = fabsf(nsvcd__f3_dot(n, over->heading));
@@ -14649,6 +14674,7 @@ typedef struct nsvcd__triangle_pair {
 // Sets from_origin and from_axis.
 static void nsvcd__pair_arm(const nsvcd__arc *arc, nsvcd__triangle_pair *pair) {
   pair->from_origin = pair->from_axis = 0;
+  if (nsvcd__is_straight(arc)) return;  // what turns nothing has no arm
   for (size_t k = 0; k < 3; k++) {
     const nsvcd__d3 corner = pair->moving[k];
     const nsvcd__d3 across = nsvcd__d3_cross(corner, arc->own_axis);
@@ -15435,6 +15461,8 @@ typedef struct nsvcd__v_approach {
   nsvcd__v3 at_start, at_end;
   // the mean of the moving slab's normals at both ends, and half their difference
   nsvcd__v3 mean, turned;
+  // does any point leave its chord?
+  int may_bend;
   // of the moving body
   nsvcd__v scale;
   nsvcd__v_interval over;
@@ -15448,6 +15476,7 @@ typedef struct nsvcd__v_approach {
 // Along a plane's normal: the deviation of a moving point, and the clearance.
 NSVCD__INLINE nsvcd__v nsvcd__v_off(const nsvcd__v_approach *a, nsvcd__v3 plane) {
   const nsvcd__v allowed = nsvcd__v_plus(a->over.rounding, a->clearance);
+  if (!a->may_bend) return allowed;
   return nsvcd__v_add(allowed, nsvcd__v_deviation(&a->over, plane, a->radius));
 }
 
@@ -15470,6 +15499,8 @@ NSVCD__INLINE uint32_t nsvcd__v_separate(const nsvcd__v_approach *a, nsvcd__v3 p
 NSVCD__INLINE uint32_t nsvcd__v_separate_by_fixed(const nsvcd__v_approach *a) {
   const nsvcd__v_range fixed = {a->fixed.low, a->fixed.high};
   const nsvcd__v_range start = nsvcd__v_slab_range(&a->moving, a->at_start);
+  if (!a->may_bend)
+    return nsvcd__v_separate(a, a->fixed.normal, start, start, fixed, a->fixed_off);
   const nsvcd__v_range end = nsvcd__v_slab_range(&a->moving, a->at_end);
   return nsvcd__v_separate(a, a->fixed.normal, start, end, fixed, a->fixed_off);
 }
@@ -15500,6 +15531,7 @@ static uint32_t nsvcd__slabs_meet(const nsvcd__proof *p, const nsvcd__interval *
   a.fixed = nsvcd__v_slab_set(&fixed);
   a.at_start = nsvcd__v3_set(nsvcd__mat3_apply_transpose(from, fixed.normal));
   a.at_end = nsvcd__v3_set(nsvcd__mat3_apply_transpose(to, fixed.normal));
+  a.may_bend = nsvcd__may_bend(over);
   a.scale = nsvcd__v_set(p->arcs.motion->scale);
   a.over = nsvcd__v_interval_set(over);
   a.clearance = nsvcd__clearance(&p->goal);
@@ -15536,6 +15568,7 @@ static NSVCD__NOINLINE void nsvcd__separate_groups(const nsvcd__proof *p, nsvcd_
       nsvcd__slab_at(p->moving.group_slabs, nsvcd__group_slots(moving->padded), g);
   nsvcd__v_approach a;
   a.moving = nsvcd__v_slab_set(&own);
+  a.may_bend = 1;  // in some segment
   a.scale = nsvcd__v_set(q->scale);
   a.clearance = nsvcd__clearance(&p->goal);
   a.radius = nsvcd__group_extent(moving, g);
@@ -15572,6 +15605,44 @@ static NSVCD__NOINLINE void nsvcd__separate_groups(const nsvcd__proof *p, nsvcd_
     }
     if (!*met) q->waiting &= ~((uint32_t)1 << at);
   }
+}
+// The way of the moving group in a segment, up to the end of what matters.
+typedef struct nsvcd__way {
+  size_t segment;
+  double start, length;  // ticks
+  // the chord of its sphere
+  nsvcd__f3 from, travel;
+  float inverse, radius;
+  // its slab, against 16 others
+  nsvcd__v_approach slabs;
+  nsvcd__vmat3 at_start, at_end;
+} nsvcd__way;
+
+// Of 16 spheres of the fixed body, those `met` whose slabs no plane normal to one separates from
+// that of the moving group: groups, if `level` is 1, or patches, 0, from number `first` on.
+static uint32_t nsvcd__slabs_on_way(const nsvcd__solver *w, nsvcd__way *way,
+                                    nsvcd__spheres spheres, size_t level, size_t first,
+                                    uint32_t met) {
+  const nsvcd__geometry *f = &w->p.fixed;
+  const float *slabs = (level > 0 ? f->group_slabs : f->slabs) + first;
+  const size_t padded = f->body->padded;
+  const size_t stride = level > 0 ? nsvcd__group_slots(padded) : padded;
+  const int is_point = w->p.moving.body->patches == 1 && w->p.moving.hull_counts[0] == 1;
+  nsvcd__v_approach *a = &way->slabs;
+  uint32_t left = 0;
+  NSVCD__EACH_SLICE(l) {
+    uint32_t wanted = met >> l & NSVCD__SLICE_MASK;
+    if (!wanted) continue;
+    a->from = nsvcd__v3_sub(nsvcd__v3_set(way->from), nsvcd__v3_centres(spheres, l));
+    a->fixed = nsvcd__v_slab_load(slabs + l, stride);
+    a->at_start = nsvcd__vmat3_apply_transpose(way->at_start, a->fixed.normal);
+    a->at_end = nsvcd__vmat3_apply_transpose(way->at_end, a->fixed.normal);
+    a->fixed_off = nsvcd__v_off(a, a->fixed.normal);
+    wanted &= ~nsvcd__v_separate_by_fixed(a);
+    if (wanted && !is_point) wanted &= ~nsvcd__v_separate_by_moving(a);
+    left |= wanted << l;
+  }
+  return left;
 }
 #endif  // NSVCD_NO_PROOF
 
@@ -15659,6 +15730,24 @@ static nsvcd__f3 nsvcd__f3_towards(nsvcd__f3 a, nsvcd__f3 b) {
   return nsvcd__f3_scale(a, nsvcd__f3_dot(a, b) < 0 ? -1.0f : 1.0f);
 }
 
+// Remembers a plane that held. No heights are known over the first one.
+static void nsvcd__hold_plane(nsvcd__memo *memo, nsvcd__f3 normal) {
+  if (!memo->plane) {
+    memset(memo->heights, 0, sizeof memo->heights);
+    memset(memo->fixed_heights, 0, sizeof memo->fixed_heights);
+  }
+  memo->held = normal;
+  memo->plane++;
+}
+
+// The point nearest to 0 of a chord.
+static nsvcd__f3 nsvcd__f3_nearest(nsvcd__f3 start, nsvcd__f3 travel) {
+  const float square = nsvcd__f3_dot(travel, travel);
+  const float fraction = square > 0 ? -nsvcd__f3_dot(start, travel) / square : 0;
+  const float clamped = fraction > 0 ? fminf(fraction, 1) : 0;
+  return nsvcd__f3_add(start, nsvcd__f3_scale(travel, clamped));
+}
+
 // Is there a plane between two patches over the whole interval? A direction separates them if the
 // gap between the hulls along it is more than the margin and the deviation. First guesses: the last
 // plane that held, the slabs' normals, the line of centres. Then Gilbert's iteration (1966) from
@@ -15684,10 +15773,12 @@ static NSVCD__NOINLINE int nsvcd__hulls_are_apart(nsvcd__solver *w, size_t i, si
   const nsvcd__slab moving = nsvcd__slab_at(f->slabs, f->body->padded, i);
   const nsvcd__slab fixed = nsvcd__slab_at(g->slabs, g->body->padded, j);
   const nsvcd__f3 centre = nsvcd__patch_centre(f, i);
-  const nsvcd__f3 both =
-      nsvcd__f3_add(nsvcd__f3_transform(start, centre), nsvcd__f3_transform(end, centre));
-  const nsvcd__f3 middle = nsvcd__f3_scale(both, 0.5f);
-  const nsvcd__f3 line = nsvcd__f3_sub(middle, nsvcd__patch_centre(g, j));
+  // between the centres when they are nearest
+  const nsvcd__f3 from =
+      nsvcd__f3_sub(nsvcd__f3_transform(start, centre), nsvcd__patch_centre(g, j));
+  const nsvcd__f3 to =
+      nsvcd__f3_sub(nsvcd__f3_transform(end, centre), nsvcd__patch_centre(g, j));
+  const nsvcd__f3 line = nsvcd__f3_nearest(from, nsvcd__f3_sub(to, from));
   const nsvcd__f3 turned = nsvcd__mat3_apply(&start->rotation, moving.normal);
   const nsvcd__f3 guesses[NSVCD__GUESSES] = {w->memo.held,
                                              nsvcd__f3_towards(fixed.normal, line),
@@ -15695,23 +15786,21 @@ static NSVCD__NOINLINE int nsvcd__hulls_are_apart(nsvcd__solver *w, size_t i, si
   nsvcd__f3 nearest = {0, 0, 0};
   p->work++;
   // where all that is near is listed, most hulls are near, and their triangles cost no more
-  const size_t steps = p->goal.collects == NSVCD__LISTING ? 0 : NSVCD__PLANE_STEPS;
+  // nor do those that a point meets
+  const int is_brief = p->goal.collects == NSVCD__LISTING || f->hull_counts[i] == 1;
+  const size_t steps = is_brief ? 0 : NSVCD__PLANE_STEPS;
   for (size_t step = 0; step < NSVCD__GUESSES + steps; step++) {
     const nsvcd__f3 normal = step < NSVCD__GUESSES ? guesses[step] : nearest;
     const nsvcd__support found = nsvcd__support_along(w, normal);
     const float length = nsvcd__f3_norm(normal);
     if (found.gap > 0 &&
         found.gap > margin * length + nsvcd__deviation_of(over, normal, arm)) {
-      w->memo.held = normal;
-      w->memo.plane++;
+      nsvcd__hold_plane(&w->memo, normal);
       return 1;
     }
     if (step + 1 < NSVCD__GUESSES) continue;
     const nsvcd__f3 toward = nsvcd__f3_sub(found.difference, nearest);
-    const float square = nsvcd__f3_dot(toward, toward);
-    float fraction = square > 0 ? -nsvcd__f3_dot(nearest, toward) / square : 0;
-    fraction = fraction > 0 ? fminf(fraction, 1) : 0;
-    const nsvcd__f3 nearer = nsvcd__f3_add(nearest, nsvcd__f3_scale(toward, fraction));
+    const nsvcd__f3 nearer = nsvcd__f3_nearest(nearest, toward);
     nearest = step < NSVCD__GUESSES ? found.difference : nearer;
     // the hulls come this near
     if (nsvcd__f3_dot(nearest, nearest) <= margin * margin) return 0;
@@ -15772,34 +15861,68 @@ static int nsvcd__held_again(nsvcd__solver *w, const nsvcd__search *q,
 // In: 16 triangles of a patch, and a plane or other triangles. Out: which of them may meet.
 
 #ifndef NSVCD_NO_PROOF
+// Point i of a patch.
+static nsvcd__f3 nsvcd__point_of(const nsvcd__geometry *f, size_t patch,
+                                 nsvcd__patch_points points, size_t i) {
+  if (i >= points.stored) return nsvcd__f3_load(nsvcd__position_of(f, patch, points, i));
+  const nsvcd__vertices stored = nsvcd__vertices_of(f, patch);
+  const nsvcd__f3 centre = nsvcd__patch_centre(f, patch);
+  const float step = f->steps[patch];
+  return nsvcd__f3_of(centre.x + step * (float)stored.x[i],
+                      centre.y + step * (float)stored.y[i],
+                      centre.z + step * (float)stored.z[i]);
+}
+
+// All points of a patch that has few. Corners name them in no order, and which kind each one is
+// would be mispredicted.
+#define NSVCD__FEW_POINTS 48
+static void nsvcd__few_points(const nsvcd__geometry *f, size_t patch,
+                              nsvcd__patch_points points, float (*out)[NSVCD__FEW_POINTS]) {
+  const nsvcd__vertices stored = nsvcd__vertices_of(f, patch);
+  const nsvcd__f3 centre = nsvcd__patch_centre(f, patch);
+  const float step = f->steps[patch];
+  const size_t references = points.stored + points.own;
+  for (size_t i = 0; i < points.stored; i++) {
+    out[0][i] = centre.x + step * (float)stored.x[i];
+    out[1][i] = centre.y + step * (float)stored.y[i];
+    out[2][i] = centre.z + step * (float)stored.z[i];
+  }
+  const float *own = f->positions + 3 * (size_t)f->first_own[patch];
+  for (size_t i = points.stored; i < references; i++, own += 3) {
+    for (size_t axis = 0; axis < 3; axis++) out[axis][i] = own[axis];
+  }
+  for (size_t i = references; i < points.all; i++) {
+    const size_t at = f->first_reference[patch] + i - references;
+    const float *other = f->positions + 3 * nsvcd__reference_at(f, at);
+    for (size_t axis = 0; axis < 3; axis++) out[axis][i] = other[axis];
+  }
+}
+
 // Loads entries first .. first + count - 1 of a patch, at most 16; the last one is repeated. Stored
 // points are off by no more than a quantization error, and what NSVCD__ROUNDING allows.
 static void nsvcd__block_load(const nsvcd__geometry *f, size_t patch, size_t first,
                               size_t count, nsvcd__block *out) {
   const nsvcd__patch_points points = nsvcd__points_of(f, patch);
-  const nsvcd__vertices stored = nsvcd__vertices_of(f, patch);
-  const nsvcd__f3 centre = nsvcd__patch_centre(f, patch);
-  const float step = f->steps[patch];
   const size_t bytes = nsvcd__corner_bytes(points.all);
   const unsigned char *codes =
       f->entries + f->first_byte[patch] + 3 * bytes * (first - f->first_triangle[patch]);
   out->patch = patch;
   out->first = first;
   out->count = count;
+  const int has_table = points.all <= NSVCD__FEW_POINTS;
+  float table[3][NSVCD__FEW_POINTS];
+  if (has_table) nsvcd__few_points(f, patch, points, table);
   for (size_t k = 0; k < 3; k++) {
     float(*to)[NSVCD__LANES] = out->corners[k];
-    for (size_t l = 0; l < count; l++) {
+    for (size_t l = 0; l < count && has_table; l++) {
+      const size_t i = codes[3 * l + k];
+      for (size_t axis = 0; axis < 3; axis++) to[axis][l] = table[axis][i];
+    }
+    for (size_t l = has_table ? count : 0; l < count; l++) {
       const size_t n = 3 * l + k;
       uint16_t i = codes[n];
       if (bytes == 2) memcpy(&i, codes + 2 * n, sizeof i);
-      if (i < points.stored) {
-        to[0][l] = centre.x + step * (float)stored.x[i];
-        to[1][l] = centre.y + step * (float)stored.y[i];
-        to[2][l] = centre.z + step * (float)stored.z[i];
-        continue;
-      }
-      const float *position = nsvcd__position_of(f, patch, points, i);
-      nsvcd__lane_set(nsvcd__f3_load(position), to, l);
+      nsvcd__lane_set(nsvcd__point_of(f, patch, points, i), to, l);
     }
     for (size_t l = count; l < NSVCD__LANES; l++)
       nsvcd__lane_set(nsvcd__lane_of(to, count - 1), to, l);
@@ -16016,9 +16139,18 @@ static NSVCD__NOINLINE uint32_t nsvcd__row_left(nsvcd__solver *w, size_t l,
   nsvcd__block *block = &w->blocks.moving;
   const nsvcd__box box = {nsvcd__lane_of(block->low, l), nsvcd__lane_of(block->high, l)};
   uint32_t met = nsvcd__lanes_near(fixed, box, margin);
+  // of a segment (a, b, b) or a point the normals of all edges but one, or two, are those of others
+  const nsvcd__f3 a = nsvcd__lane_of(block->corners[0], l);
+  const nsvcd__f3 b = nsvcd__lane_of(block->corners[1], l);
+  const nsvcd__f3 c = nsvcd__lane_of(block->corners[2], l);
+  const nsvcd__f3 ab = nsvcd__f3_sub(b, a);
+  const nsvcd__f3 bc = nsvcd__f3_sub(c, b);
+  const int is_segment = !(nsvcd__f3_dot(bc, bc) > 0);
+  const int is_point = is_segment && !(nsvcd__f3_dot(ab, ab) > 0);
+  const size_t normals = is_point ? 6 : is_segment ? 9 : NSVCD__NORMALS;
   // the last plane: see nsvcd__lanes_left_by_last
-  for (size_t k = w->p.goal.clearance > 0 ? NSVCD__LAST_NORMAL : 1; met && k < NSVCD__NORMALS;
-       k++)
+  for (size_t k = w->p.goal.clearance > 0 ? NSVCD__LAST_NORMAL : 1; met && k < normals;
+       k += k == 1 && is_segment ? 2 : 1)
     met = nsvcd__left_by_normal(w, l, fixed, k, margin, met);
   return met;
 }
@@ -16214,7 +16346,8 @@ static nsvcd__outcome nsvcd__resolve_row(nsvcd__solver *w, size_t l, nsvcd__bloc
     const size_t b = fixed->first + nsvcd__low_bit(met);
     const nsvcd__triangle_pair pair = nsvcd__pair_of(p, i, j, a, b);
     const nsvcd__outcome one = nsvcd__resolve_pair(p, &pair, u0, u1);
-    if (one != NSVCD__DONE) return one;
+    // where the question shrank, the pair is resolved for what is left of it
+    if (one != NSVCD__DONE && one != NSVCD__SHRUNK) return one;
     if (p->parts > patience) return NSVCD__TOO_LONG;
     p->shared = nsvcd__d3_distance2(p->separating, before) > 0 ? 0 : p->shared + 1;
   }
@@ -16403,15 +16536,19 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__sift_patch_pairs(nsvcd__solver *w,
                                                               nsvcd__search *q) {
   nsvcd__proof *p = &w->p;
   const int tells_more = p->goal.measure > 0 || p->goal.first > 0;
+  // the first contact of a straight motion follows from its triangles
+  const int follows = p->goal.first > 0 && p->arcs.motion->ticks == 1 &&
+                      nsvcd__is_straight(nsvcd__arc_at(&p->arcs, 0));
   size_t count = 0;
   nsvcd__clip_segment(w, q);
+  const uint32_t plane = w->memo.plane;
   for (size_t n = 0; n < w->fresh_count; n++) {
     if (nsvcd__held_again(w, q, &w->fresh[n])) continue;
     w->fresh[count++] = w->fresh[n];
   }
   w->fresh_count = 0;
   nsvcd__sort_patch_pairs(p, w->fresh, count);
-  if (count > 0 && w->fresh[0].depth > NSVCD__DEEP &&
+  if (count > 0 && w->fresh[0].depth > NSVCD__DEEP && !follows &&
       nsvcd__seek_in_patch_pair(w, q, &w->fresh[0]) == NSVCD__ANSWERED)
     return NSVCD__ANSWERED;
 
@@ -16420,7 +16557,8 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__sift_patch_pairs(nsvcd__solver *w,
     if (nsvcd__check_budget(p)) return NSVCD__EXHAUSTED;
     nsvcd__clip_segment(w, q);
     if (!nsvcd__matters(p, q, patches->segment)) continue;
-    if (nsvcd__held_again(w, q, patches)) continue;
+    // by a plane found since
+    if (w->memo.plane != plane && nsvcd__held_again(w, q, patches)) continue;
     if (nsvcd__is_separated(w, q, patches)) continue;
     double u;
     const uint32_t first = nsvcd__arc_of(p->arcs.motion, q->begin[patches->segment], &u);
@@ -16474,8 +16612,7 @@ static nsvcd__outcome nsvcd__collect_contacts(nsvcd__solver *w, const nsvcd__sea
       const uint32_t before = p->near_list.count;
       (void)nsvcd__find_witness(w, patches->moving, patches->fixed, 0, 0);
       if (p->near_list.count > before) {
-        w->memo.held = nsvcd__f3_round(p->separating);
-        w->memo.plane++;
+        nsvcd__hold_plane(&w->memo, nsvcd__f3_round(p->separating));
       }
     }
   }
@@ -16567,10 +16704,10 @@ static uint32_t nsvcd__lanes_on_ray(nsvcd__block *block, const nsvcd__ray *ray, 
       const nsvcd__v volume = nsvcd__v3_dot(across, to_corner);
       least = nsvcd__v_min(least, volume);
       most = nsvcd__v_max(most, volume);
-      longest = nsvcd__v_max(longest, nsvcd__v3_norm(across));
+      longest = nsvcd__v_max(longest, nsvcd__v3_dot(across, across));
     }
     const nsvcd__v allowed =
-        nsvcd__v_fma(nsvcd__v_set(margin), longest, nsvcd__v_set(rounding));
+        nsvcd__v_fma(nsvcd__v_set(margin), nsvcd__v_sqrt(longest), nsvcd__v_set(rounding));
     missed |= (nsvcd__v_lt(least, nsvcd__v_negate(allowed)) & nsvcd__v_lt(allowed, most)) << l;
   }
   return nsvcd__block_lanes(block) & ~missed;
@@ -16694,12 +16831,30 @@ static int nsvcd__surface_is_near(nsvcd__solver *w, const nsvcd__geometry *f, ns
   return 0;
 }
 
+// A direction turned towards the nearest of those faces of the body's box that it leads to: a ray
+// that leaves sooner meets less.
+static nsvcd__d3 nsvcd__way_out(const nsvcd__geometry *f, nsvcd__d3 point,
+                                nsvcd__d3 direction) {
+  const double from[3] = {point.x, point.y, point.z};
+  double along[3] = {direction.x, direction.y, direction.z};
+  double least = HUGE_VAL;
+  size_t nearest = 0;
+  for (size_t k = 0; k < 3; k++) {
+    const double face = (double)f->box[along[k] > 0 ? 3 + k : k];
+    const double room = fabs(face - from[k]);
+    if (room < least) nearest = k;
+    least = nsvcd__min(least, room);
+  }
+  along[nearest] *= 3;
+  return nsvcd__d3_of(along[0], along[1], along[2]);
+}
+
 // Does the body enclose a point of its frame, farther from its surface than rounding? Rays tell, in
 // directions that no mesh is likely to be aligned with. The first one goes to the side of the body
-// that the point is on. One ray is enough where all surfaces are closed. Of what is nearly a solid,
-// the majority of the rays tells whether its winding number is more than a half: then the point is
-// not known to be outside. (Difference from Jacobson 2013: rays, not a sum of solid angles.) unit:
-// of the body's frame.
+// that the point is on, and more to the face of its box that is near there. One ray is enough where
+// all surfaces are closed. Of what is nearly a solid, the majority of the rays tells whether its
+// winding number is more than a half: then the point is not known to be outside. (Difference from
+// Jacobson 2013: rays, not a sum of solid angles.) unit: of the body's frame.
 static int nsvcd__is_enclosed(nsvcd__solver *w, const nsvcd__geometry *f, double unit,
                               nsvcd__d3 point) {
   nsvcd__proof *p = &w->p;
@@ -16726,6 +16881,7 @@ static int nsvcd__is_enclosed(nsvcd__solver *w, const nsvcd__geometry *f, double
       return 0;
     }
     ray.direction = nsvcd__d3_of(d[0], d[1], d[2]);
+    if (n == 0) ray.direction = nsvcd__way_out(f, point, ray.direction);
     ray.direction = nsvcd__d3_scale(ray.direction, 1 / nsvcd__d3_norm(ray.direction));
     const nsvcd__crossings sum = nsvcd__cross_all(w, f, &ray);
     if (sum.unclear) continue;
@@ -16821,7 +16977,8 @@ static int nsvcd__contains_seeds(nsvcd__solver *w, const nsvcd__enclosure *e, si
 static int nsvcd__contains_any(nsvcd__solver *w, const nsvcd__enclosure *e) {
   const nsvcd_body *inner = e->inner->body;
   const nsvcd_body *outer = e->outer->body;
-  if (outer->open) return 0;
+  // nor does a single triangle, segment or point enclose anything
+  if (outer->open || outer->triangles < 2) return 0;
   const int is_one = e->inner->counts->components == 1 && e->outer->kind_bits == 1;
   if (is_one && nsvcd__sticks_out(e->inner, &e->rounded, e->scale, outer)) return 0;
   if (e->inner->counts->components <= NSVCD__LANES)
@@ -16860,9 +17017,15 @@ static NSVCD__NOINLINE int nsvcd__is_contained_at_start(nsvcd__solver *w) {
 }
 #endif  // NSVCD_NO_PROOF
 
-// ----------------------------------------------------------------------------------- separate/loop
-// In: a question, and a motion that has been cut into segments. Out: all of it resolved, or a
-// contact that answers the question, or the budget exhausted.
+// ------------------------------------------------------------------------------- separate/in_order
+// In: a moving body of one group, and a motion that has been cut into few segments. Out: the same
+// as the loop's: the patch pairs of each segment, in the order in which the body comes to them.
+//
+// Most casts are of this kind: rays, spheres, capsules, boxes. The tree of the fixed body is
+// descended, 16 spheres at a time, along the chord of the group's sphere. What it comes to first is
+// searched first, so that what lies behind a contact is not searched at all: a sphere of radius r
+// that travels by v is nearest to another at the fraction f of its chord, and does not meet it
+// before f - (r + r') / |v|.
 
 #ifndef NSVCD_NO_PROOF
 // Segments from .. to - 1, as bits.
@@ -16927,6 +17090,189 @@ static nsvcd__outcome nsvcd__take_patch_pairs(nsvcd__solver *w, nsvcd__search *q
   return w->p.goal.collects ? nsvcd__collect_contacts(w, q) : nsvcd__sift_patch_pairs(w, q);
 }
 
+// 16 neighbouring spheres of the fixed body: those that are left, as bits, and from which fraction
+// of the chord on the moving group may meet each. The chord begins and ends at these ticks.
+typedef struct nsvcd__front {
+  size_t first;
+  uint32_t left;
+  double start, length;
+  nsvcd__row from;
+  // how near the centres come, squared, and at which fraction
+  nsvcd__row square, fraction;
+} nsvcd__front;
+
+// The way in segment s.
+static void nsvcd__way_set(nsvcd__solver *w, nsvcd__search *q, size_t s, nsvcd__way *out) {
+  const nsvcd__proof *p = &w->p;
+  const nsvcd_body *moving = p->moving.body;
+  const nsvcd__slab own =
+      nsvcd__slab_at(p->moving.group_slabs, nsvcd__group_slots(moving->padded), 0);
+  const size_t lane = s % NSVCD__LANES;
+  nsvcd__v_approach *a = &out->slabs;
+  nsvcd__chords *c = &q->group[s / NSVCD__LANES];
+  nsvcd__chords_of_group(q, 0);
+  const nsvcd__interval *over = nsvcd__segment_interval(w, q, s);
+  const nsvcd__mat3 *from = &over->start.rotation;
+  const nsvcd__mat3 *to = &over->end.rotation;
+  // rotations in an interval are times the scale
+  const float half = 0.5f * p->arcs.motion->per_scale;
+  const nsvcd__mat3 middle = nsvcd__mat3_mix(half, to, 1, from);
+  const nsvcd__mat3 half_turn = nsvcd__mat3_mix(half, to, -1, from);
+  out->segment = s;
+  out->start = (double)q->begin[s];
+  out->length = nsvcd__min((double)q->begin[s + 1], w->clipped_end) - out->start;
+  out->from = nsvcd__lane_of(c->start, lane);
+  out->travel = nsvcd__lane_of(c->travel, lane);
+  out->inverse = c->inverse[lane];
+  out->radius = c->radius[lane];
+  out->at_start = nsvcd__vmat3_set(from);
+  out->at_end = nsvcd__vmat3_set(to);
+  a->moving = nsvcd__v_slab_set(&own);
+  a->may_bend = nsvcd__may_bend(over);
+  a->scale = nsvcd__v_set(q->scale);
+  a->over = nsvcd__v_interval_set(over);
+  a->clearance = nsvcd__clearance(&p->goal);
+  a->radius = nsvcd__group_extent(moving, 0);
+  a->chord = nsvcd__v3_set(out->travel);
+  a->mean = nsvcd__v3_set(nsvcd__mat3_apply(&middle, own.normal));
+  a->turned = nsvcd__v3_set(nsvcd__mat3_apply(&half_turn, own.normal));
+}
+
+// Fills a front with the 16 spheres from `first` on: patches if `level` is 0, else those of the
+// level below that number.
+static NSVCD__NOINLINE void nsvcd__front_fill(nsvcd__solver *w, nsvcd__way *way, size_t level,
+                                              size_t first, nsvcd__front *out) {
+  const nsvcd_body *fixed = w->p.fixed.body;
+  const nsvcd__spheres all =
+      level > 0 ? nsvcd__level_spheres(fixed, nsvcd__level_of(fixed->padded, level - 1))
+                : nsvcd__body_patches(fixed);
+  const nsvcd__spheres spheres = nsvcd__spheres_from(all, first);
+  const nsvcd__v3 start = nsvcd__v3_set(way->from);
+  const nsvcd__v3 travel = nsvcd__v3_set(way->travel);
+  const nsvcd__v per_length = nsvcd__v_set(sqrtf(-way->inverse));
+  uint32_t met = 0;
+  NSVCD__EACH_SLICE(l) {
+    const nsvcd__v3 d = nsvcd__v3_sub(start, nsvcd__v3_centres(spheres, l));
+    const nsvcd__v sum = nsvcd__v_plus(nsvcd__v_load(spheres.r + l), way->radius);
+    const nsvcd__v nearest =
+        nsvcd__v_mul(nsvcd__v3_dot(d, travel), nsvcd__v_set(way->inverse));
+    const nsvcd__v tau = nsvcd__v_clamp(nearest, 0, 1);
+    const nsvcd__v3 off = nsvcd__v3_fma(tau, travel, d);
+    const nsvcd__v square = nsvcd__v3_dot(off, off);
+    met |= nsvcd__v_le(square, nsvcd__v_signed_square(sum)) << l;
+    nsvcd__v_store(out->from + l, nsvcd__v_sub(nearest, nsvcd__v_mul(sum, per_length)));
+    nsvcd__v_store(out->square + l, square);
+    nsvcd__v_store(out->fraction + l, tau);
+  }
+  out->first = first;
+  out->start = way->start;
+  out->length = way->length;
+  out->left = level < 2 ? nsvcd__slabs_on_way(w, way, spheres, level, first, met) : met;
+}
+
+// Takes the sphere that is met first off a front, and returns its lane; LANES: none is left, or all
+// after what matters.
+static size_t nsvcd__front_next(const nsvcd__proof *p, nsvcd__front *front) {
+  if (!front->left) return NSVCD__LANES;
+  size_t first = nsvcd__low_bit(front->left);
+  for (uint32_t left = front->left & (front->left - 1); left; left &= left - 1) {
+    const size_t l = nsvcd__low_bit(left);
+    if (front->from[l] < front->from[first]) first = l;
+  }
+  const double tick = front->start + (double)front->from[first] * front->length;
+  const int matters = !(tick >= p->known.end);
+  front->left &= matters ? ~((uint32_t)1 << first) : 0;
+  return matters ? first : NSVCD__LANES;
+}
+
+// Adds the patch pairs of the moving group and the patches of a front, and takes them.
+static nsvcd__outcome nsvcd__front_take(nsvcd__solver *w, nsvcd__search *q,
+                                        const nsvcd__way *way, nsvcd__front *patches) {
+  nsvcd__proof *p = &w->p;
+  const size_t s = way->segment;
+  for (uint32_t met = patches->left; met; met &= met - 1) {
+    const size_t l = nsvcd__low_bit(met);
+    const size_t j = patches->first + l;
+    uint64_t left = (uint64_t)1 << s;
+    if (p->fixed.hull_counts[j] == 0) continue;
+    if (p->moving.body->patches == 1) {
+      const float radii = way->radius + nsvcd__body_r(p->fixed.body)[j];
+      const float depth = 1 - sqrtf(patches->square[l]) / (radii > 1e-30f ? radii : 1e-30f);
+      const nsvcd__patch_pair pair = {0, (uint16_t)j, (uint16_t)s,
+                                      0, depth,       patches->fraction[l]};
+      w->fresh[w->fresh_count++] = pair;
+      continue;
+    }
+    while (left) {
+      nsvcd__pose_members(q, 0, left);
+      nsvcd__add_patch_pairs(w, q, 0, j, &left);
+      if (!left) break;
+      const nsvcd__outcome outcome = nsvcd__take_patch_pairs(w, q);
+      if (outcome != NSVCD__DONE) return outcome;
+    }
+  }
+  return w->fresh_count > 0 ? nsvcd__take_patch_pairs(w, q) : NSVCD__DONE;
+}
+
+// As nsvcd__prove_segments, of one segment.
+static NSVCD__NOINLINE nsvcd__outcome nsvcd__prove_in_order(nsvcd__solver *w, nsvcd__search *q,
+                                                            size_t s) {
+  nsvcd__proof *p = &w->p;
+  nsvcd__front fronts[NSVCD__LEVELS + 1];
+  nsvcd__way way;
+  const size_t padded = p->fixed.body->padded;
+  const size_t top = nsvcd__level_count(padded);
+  const size_t slots = nsvcd__level_of(padded, top - 1).slots;
+  nsvcd__way_set(w, q, s, &way);
+  for (size_t first = 0; first < slots; first += NSVCD__GROUP) {
+    size_t level = top;
+    nsvcd__front_fill(w, &way, level, first, &fronts[level]);
+    for (;;) {
+      const size_t l =
+          nsvcd__matters(p, q, s) ? nsvcd__front_next(p, &fronts[level]) : NSVCD__LANES;
+      if (l == NSVCD__LANES) {
+        if (level == top) break;
+        level++;
+        continue;
+      }
+      const size_t next = NSVCD__GROUP * (fronts[level].first + l);
+      nsvcd__front_fill(w, &way, level - 1, next, &fronts[level - 1]);
+      if (level > 1) {
+        level--;
+        continue;
+      }
+      const double end = p->known.end;
+      const nsvcd__outcome outcome = nsvcd__front_take(w, q, &way, &fronts[0]);
+      if (outcome != NSVCD__DONE) return outcome;
+      if (!(p->known.end < end)) continue;
+      nsvcd__clip_segment(w, q);
+      nsvcd__way_set(w, q, s, &way);
+    }
+  }
+  return nsvcd__resolve_patch_pairs(w, q);
+}
+
+// As nsvcd__prove_tiles.
+static nsvcd__outcome nsvcd__prove_all_in_order(nsvcd__solver *w, nsvcd__search *q) {
+  nsvcd__proof *p = &w->p;
+  q->moving = p->moving.body;
+  q->fixed = p->fixed.body;
+  q->ready = 0;
+  for (size_t s = 0; s < q->segments && nsvcd__matters(p, q, s); s++) {
+    q->wanted = (uint64_t)1 << s;
+    const nsvcd__outcome outcome = nsvcd__prove_in_order(w, q, s);
+    if (outcome != NSVCD__DONE) return outcome;
+    if (!p->known.has_contact) p->known.proven_until = (double)q->begin[s + 1];
+  }
+  return NSVCD__DONE;
+}
+#endif  // NSVCD_NO_PROOF
+
+// ----------------------------------------------------------------------------------- separate/loop
+// In: a question, and a motion that has been cut into segments. Out: all of it resolved, or a
+// contact that answers the question, or the budget exhausted.
+
+#ifndef NSVCD_NO_PROOF
 // THE LOOP: point 2 of the theorem. Spheres and slabs separate groups of a tile of the moving body
 // and one of the fixed body, and then patches of the groups left. What is left of these are patch
 // pairs, for nsvcd__sift_patch_pairs and nsvcd__resolve_patch_pairs. In the end each pair of
@@ -16979,6 +17325,8 @@ static nsvcd__outcome nsvcd__prove_tiles(nsvcd__solver *w, nsvcd__search *q) {
   const size_t all = q->segments;
   const size_t few = p->goal.first > 0 ? NSVCD__IN_ORDER : all;
   nsvcd__outcome outcome = NSVCD__DONE;
+  if (nsvcd__body_groups(moving) == 1 && all <= NSVCD__FEW_SEGMENTS && !p->goal.collects)
+    return nsvcd__prove_all_in_order(w, q);
   (void)nsvcd__search_begin(moving, fixed, nsvcd__segments_in(0, all), q);
   do {
     for (size_t s = 0; s < all && outcome == NSVCD__DONE; s += few) {
@@ -18824,11 +19172,17 @@ static void nsvcd__record(const nsvcd__task *task, nsvcd__tape *tape) {
 #define nsvcd__exit_is_blocked NSVCD__AT(exit_is_blocked)
 #define nsvcd__extremes_along NSVCD__AT(extremes_along)
 #define nsvcd__extremes_collect NSVCD__AT(extremes_collect)
+#define nsvcd__f3_nearest NSVCD__AT(f3_nearest)
 #define nsvcd__f3_towards NSVCD__AT(f3_towards)
 #define nsvcd__face_direction NSVCD__AT(face_direction)
+#define nsvcd__few_points NSVCD__AT(few_points)
 #define nsvcd__find_witness NSVCD__AT(find_witness)
 #define nsvcd__find_witness_in NSVCD__AT(find_witness_in)
 #define nsvcd__first_lanes NSVCD__AT(first_lanes)
+#define nsvcd__front NSVCD__AT(front)
+#define nsvcd__front_fill NSVCD__AT(front_fill)
+#define nsvcd__front_next NSVCD__AT(front_next)
+#define nsvcd__front_take NSVCD__AT(front_take)
 #define nsvcd__gap_after NSVCD__AT(gap_after)
 #define nsvcd__gap_axes_of NSVCD__AT(gap_axes_of)
 #define nsvcd__gap_fact NSVCD__AT(gap_fact)
@@ -18839,6 +19193,7 @@ static void nsvcd__record(const nsvcd__task *task, nsvcd__tape *tape) {
 #define nsvcd__group_against_members NSVCD__AT(group_against_members)
 #define nsvcd__group_extent NSVCD__AT(group_extent)
 #define nsvcd__held_again NSVCD__AT(held_again)
+#define nsvcd__hold_plane NSVCD__AT(hold_plane)
 #define nsvcd__hull_of NSVCD__AT(hull_of)
 #define nsvcd__hulls_are_apart NSVCD__AT(hulls_are_apart)
 #define nsvcd__inputs NSVCD__AT(inputs)
@@ -18906,6 +19261,7 @@ static void nsvcd__record(const nsvcd__task *task, nsvcd__tape *tape) {
 #define nsvcd__lowest_over NSVCD__AT(lowest_over)
 #define nsvcd__matters NSVCD__AT(matters)
 #define nsvcd__may_be_close NSVCD__AT(may_be_close)
+#define nsvcd__may_bend NSVCD__AT(may_bend)
 #define nsvcd__meet NSVCD__AT(meet)
 #define nsvcd__meet_in NSVCD__AT(meet_in)
 #define nsvcd__meet_members NSVCD__AT(meet_members)
@@ -18943,10 +19299,13 @@ static void nsvcd__record(const nsvcd__task *task, nsvcd__tape *tape) {
 #define nsvcd__plane_cache_begin NSVCD__AT(plane_cache_begin)
 #define nsvcd__plane_separates NSVCD__AT(plane_separates)
 #define nsvcd__planes_known NSVCD__AT(planes_known)
+#define nsvcd__point_of NSVCD__AT(point_of)
 #define nsvcd__pose_members NSVCD__AT(pose_members)
 #define nsvcd__pose_triangle NSVCD__AT(pose_triangle)
 #define nsvcd__probes NSVCD__AT(probes)
 #define nsvcd__probes_measure NSVCD__AT(probes_measure)
+#define nsvcd__prove_all_in_order NSVCD__AT(prove_all_in_order)
+#define nsvcd__prove_in_order NSVCD__AT(prove_in_order)
 #define nsvcd__prove_segments NSVCD__AT(prove_segments)
 #define nsvcd__prove_tiles NSVCD__AT(prove_tiles)
 #define nsvcd__ranges_store NSVCD__AT(ranges_store)
@@ -18990,6 +19349,7 @@ static void nsvcd__record(const nsvcd__task *task, nsvcd__tape *tape) {
 #define nsvcd__separated_along NSVCD__AT(separated_along)
 #define nsvcd__sift_patch_pairs NSVCD__AT(sift_patch_pairs)
 #define nsvcd__slabs_meet NSVCD__AT(slabs_meet)
+#define nsvcd__slabs_on_way NSVCD__AT(slabs_on_way)
 #define nsvcd__slerp_in NSVCD__AT(slerp_in)
 #define nsvcd__slice_against_patch NSVCD__AT(slice_against_patch)
 #define nsvcd__sort_patch_pairs NSVCD__AT(sort_patch_pairs)
@@ -19009,6 +19369,7 @@ static void nsvcd__record(const nsvcd__task *task, nsvcd__tape *tape) {
 #define nsvcd__transform_of NSVCD__AT(transform_of)
 #define nsvcd__triangle_pair NSVCD__AT(triangle_pair)
 #define nsvcd__turned_back NSVCD__AT(turned_back)
+#define nsvcd__turns NSVCD__AT(turns)
 #define nsvcd__undoes NSVCD__AT(undoes)
 #define nsvcd__undone_by NSVCD__AT(undone_by)
 #define nsvcd__v NSVCD__AT(v)
@@ -19109,6 +19470,9 @@ static void nsvcd__record(const nsvcd__task *task, nsvcd__tape *tape) {
 #define nsvcd__vquat_set NSVCD__AT(vquat_set)
 #define nsvcd__vquat_store NSVCD__AT(vquat_store)
 #define nsvcd__vquat_unit NSVCD__AT(vquat_unit)
+#define nsvcd__way NSVCD__AT(way)
+#define nsvcd__way_out NSVCD__AT(way_out)
+#define nsvcd__way_set NSVCD__AT(way_set)
 #define nsvcd__weights_at NSVCD__AT(weights_at)
 #define nsvcd__wigner NSVCD__AT(wigner)
 #define nsvcd__winding_number NSVCD__AT(winding_number)
@@ -19807,7 +20171,8 @@ static void nsvcd__restart(nsvcd__solver *w, nsvcd__motion *motion) {
   p->shared = w->blocks.window = 0;
   p->push.too_deep = w->blocks.has_block = 0;
   p->separating = nsvcd__d3_of(0, 0, 0);
-  memset(&w->memo, 0, sizeof w->memo);
+  w->memo.intervals = w->memo.plane = 0;
+  w->memo.held = nsvcd__f3_of(0, 0, 0);
 }
 
 // Searches any motion, from scratch.

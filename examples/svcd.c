@@ -177,13 +177,14 @@ static const manual svcd = {
     options,
     sizeof options / sizeof options[0],
     "svcd-verify",
-    "[--pairs] FILE.txt FOLDER [--clearance METRES] [--only ID,ID]",
+    "[--pairs] FILE.txt FOLDER [--clearance METRES] [--only ID,ID] [--claims]",
     "Checks certificates without the library: FILE.txt is a problem file or a planning file, "
     "FOLDER holds ID.cert for each of its problems or plans. Prints one line each, separated by "
     "tabs: ID accepted|refused REASON BYTES MICROSECONDS. --clearance: that of svcd; --only: only "
-    "these. --pairs: A-B.cert, that two bodies of a robot never meet. Exit status: 0 each proves "
-    "what its line says, which may be a hit; 1 one is refused or "
-    "missing; 2 a file cannot be read, or usage. In the repository it is build/verify."};
+    "these. --pairs: A-B.cert, that two bodies of a robot never meet. --claims: and a SHA-256 of "
+    "what "
+    "is proven of. Exit status: 0 each proves what its line says, which may be a hit; 1 one is "
+    "refused or missing; 2 a file cannot be read, or usage. In the repository it is build/verify."};
 
 // -------------------------------------------------------------------------------------------- main
 

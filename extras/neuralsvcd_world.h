@@ -31,6 +31,7 @@
 //     walk            characters: grounds, walls and steps
 //     slide           a frame of a body
 //     momentum        what bodies that meet give each other
+//     carry           who goes along with lifts
 //     step            a frame of all
 //     mass            the mass of a mesh
 //
@@ -53,38 +54,38 @@ extern "C" {
 // after which nothing overlaps.
 //
 // THE LAW OF A FRAME
-//   Bodies move one after the other, in the caller's order, each over the whole frame, and each is
-// proven against all others where they are then. So after every move no two bodies are within the
-// clearance of each other, whoever moved last, if none were before. No share of time has to be
-// agreed upon, and a pile is not held up by the one contact in it that comes first.
+//   Bodies move one after the other, in the caller's order, each over the whole frame, and each
+// move is proven against all others where they are at that moment. So no move ends in an overlap,
+// whatever the order, if there was none before. There is no time of impact for the world as a
+// whole: a contact somewhere in a pile does not cut the frame short for the others.
 //   A driven body (nsvcd_world_drive: a lift, a door, a turntable) is the exception: it moves while
 // the others do, over the same frame, and stops for nobody. Others ride on it and get out of its
-// way. What cannot is told as caught: it is free of the driven body up to the time that it reached,
-// and not farther.
+// way. One that cannot is reported as caught: it is free of the driven body for as much of the
+// frame as it has `spent`, and may overlap it from then on.
 
 // no body: ids begin at 1
 #define NSVCD_NOBODY 0
 // the most contacts of an answer about a world
 #define NSVCD_WORLD_CONTACTS 32
 
-// Bodies in a tree of boxes, in the caller's memory, in which it stays.
+// Bodies in a tree of boxes. It lives in the caller's memory, which must not be moved or copied.
 typedef struct nsvcd_world nsvcd_world;
 
 // A body of a world. Zero is the default of everything but `body` and the rotation of `pose`.
 typedef struct nsvcd_world_body {
-  // with triangles; kept
+  // with triangles; kept, not copied
   const nsvcd_body *body;
   // where it is
   nsvcd_pose pose;
-  // as those of nsvcd_mover. The pivot of what moves freely is its centre of mass
+  // as in nsvcd_mover. For a body that moves freely the pivot has to be its centre of mass
   float scale;
   float pivot[3];
   // bits: the groups that it belongs to, default the first; and the groups that it passes through.
-  // Two bodies meet unless one passes through a group of the other's
+  // Two bodies meet unless either passes through a group that the other belongs to
   uint32_t groups, passes;
-  // 1: it never moves by itself, like a level: pairs of two such bodies are not listed
+  // 1: like a level, it moves only if moved or driven. Pairs of two such bodies are not listed
   int fixed;
-  // 1: it stops nothing. nsvcd_world_list tells what is in it
+  // 1: it stops nothing. nsvcd_world_list with it as `self` tells what is in it
   int sensor;
 } nsvcd_world_body;
 
@@ -93,14 +94,14 @@ typedef struct nsvcd_world_contact {
   // which body; `a` of the contact is the mover, and `b` this body
   size_t body;
   nsvcd_contact contact;
-  // newton seconds, along the normal: what a slide took from the mover's momentum there; for a body
-  // without a mass, metres a second
+  // newton seconds, along the normal: what the mover lost of its momentum there, in a slide; metres
+  // a second, of its speed, if it has no mass
   float impulse;
 } nsvcd_world_contact;
 
 // A question about a mover and all bodies of a world.
 typedef struct nsvcd_world_question {
-  // the question. Its b stays empty. Its a may have no body: then it is that of `self`
+  // its b stays empty. If its a has no body, it is that of `self`; no poses, it is where `self` is
   nsvcd_question question;
   // the body of the world that moves, which does not meet itself, and whose groups count; or nobody
   size_t self;
@@ -110,11 +111,11 @@ typedef struct nsvcd_world_question {
 
 // What is known of a mover and all that it comes near. Numbers are as those of nsvcd_answer.
 typedef struct nsvcd_world_answer {
-  // HIT: it hits some body. UNDECIDED: of some body that is not known, and it hits none. FREE: it
+  // HIT: it hits some body. UNDECIDED: it is known to hit none, but not to be free of all. FREE: it
   // is free of all
   nsvcd_verdict verdict;
   nsvcd_why why;
-  // the body that is hit first, or else is undecided first
+  // the body that is hit first (asked HIT: one that is hit), or else is undecided first
   size_t body;
   // it is free of all bodies before `low`, and in contact with one at `high`
   nsvcd_range time;
@@ -122,7 +123,7 @@ typedef struct nsvcd_world_answer {
   // be free of all bodies. It is the start if that is not free
   float safe_time;
   nsvcd_pose safe;
-  // with a slop: how the mover was pushed out, of all that it touched at once
+  // with a slop: by how much, and along what, it was pushed out of what it touched at the start
   float depth, push_out[3];
   // FIRST: contacts of all that touch at the safe pose, one with each body, or all with `manifold`
   size_t contact_count;
@@ -141,12 +142,12 @@ NSVCDDEF size_t nsvcd_world_size(size_t most);
 NSVCDDEF nsvcd_result nsvcd_world_begin(void *memory, size_t size, size_t most,
                                         nsvcd_world **world);
 
-// Adds a body, moves it elsewhere, takes it out, or tells of it. Nothing is asked: whoever puts a
-// body into another gets a world of bodies that overlap, and what starts so is hit at time 0.
+// Adds a body, moves it elsewhere, takes it out, or tells of it. Nothing is checked for overlap:
+// bodies that are put into each other are hit at time 0 when they are asked about.
 //   body, pose  not NULL
 //   id          of add: not NULL; set to the body's id, from 1 on, or left as it was on failure.
 //               Ids of removed bodies are used again
-//   threads     one at a time, and none may ask: what is caught of that is NSVCD_ERROR_WORLD
+//   threads     one at a time, and none may ask meanwhile. NSVCD_ERROR_WORLD if that is noticed
 //   errors      ARGUMENT, BODY, VERSION, TRIANGLES, POSE, QUATERNION, SCALE, PIVOT, COUNT (there
 //               is no room for more bodies), INDEX (`id` is no body's), WORLD
 NSVCDDEF nsvcd_result nsvcd_world_add(nsvcd_world *world, const nsvcd_world_body *body,
@@ -157,15 +158,16 @@ NSVCDDEF nsvcd_result nsvcd_world_get(const nsvcd_world *world, size_t id,
                                       nsvcd_world_body *body);
 
 // Drives a body in this frame, from where it is to a pose: by a line and a slerp, about its pivot.
-// nsvcd_world_arrive ends the frame: all driven bodies are at their ends, and rest.
+// nsvcd_world_arrive ends the frame: all driven bodies are put at their ends, and rest.
+//   threads     as nsvcd_world_move
 //   errors      ARGUMENT, POSE, QUATERNION, INDEX, WORLD
 NSVCDDEF nsvcd_result nsvcd_world_drive(nsvcd_world *world, size_t id, const nsvcd_pose *to);
 NSVCDDEF nsvcd_result nsvcd_world_arrive(nsvcd_world *world);
 
 // Answers a question about a mover and all that it comes near, driven bodies as they move. Sensors
-// are left out. HIT ends at the first body that is hit.
+// are left out. HIT stops at any body that is hit, which need not be the first on the way.
 //   With a slop, a mover that touches several bodies at the start is pushed out of all of them at
-// once, by nearly the shortest push-out that is long enough along each body's own.
+// once, by nearly the shortest vector that goes far enough along the push-out of each.
 //   workspace  (workspace_size) bytes, nsvcd_sweep_workspace_size(NULL), not NULL, aligned
 //   answer     not NULL; left as it was on failure
 //   allocates  nothing
@@ -187,8 +189,8 @@ NSVCDDEF nsvcd_result nsvcd_world_list(const nsvcd_world *world,
                                        size_t workspace_size, size_t *ids, size_t most,
                                        size_t *count);
 
-// Lists the pairs of bodies whose boxes, over this frame, come within a distance: who may meet
-// whom.
+// Lists the pairs of bodies whose boxes come within a distance; of a driven one that is the box of
+// its way in this frame.
 //   pairs      (most)
 //   count      not NULL; how many there are, which may be more than `most`
 //   errors     ARGUMENT, DISTANCE (`distance`), WORLD
@@ -200,21 +202,22 @@ NSVCDDEF nsvcd_result nsvcd_world_pairs(const nsvcd_world *world, float distance
 
 // How a body slides. Zero means the default.
 typedef struct nsvcd_slide_options {
-  // metres: what it never comes nearer to anything than; default a two-hundredth of its radius. And
-  // how much farther than that it comes to rest, or a part of that; default the same
+  // metres: it never comes nearer to anything than the clearance, by default a two-hundredth of its
+  // reach from its pivot. It comes to rest farther by up to the margin, by default the clearance
   float clearance, margin;
-  // kilograms, and (3) kg m^2, about the axes of its frame through its pivot. Without an inertia it
-  // does not turn by what it meets; without a mass it is a character, whose impulses are speeds
+  // kilograms, and (3) kg m^2, about the axes of its frame through its pivot. Without an inertia
+  // contacts do not turn it; without a mass it is a character, whose impulses are speeds
   float mass, inertia[3];
-  // of what it rubs against; and of what it hits faster than half a metre a second
+  // coefficients, whatever it meets. It bounces off what it hits faster than 0.5 metres a second
   float friction, restitution;
-  // a character: the direction up, unit; (0, 0, 0): it has none. It rides on what it stands on
+  // unit, of a character; (0, 0, 0): none. With it, it rides on what it stands on, and keeps no
+  // speed upwards from walking up something: one that it is given is a jump
   float up[3];
-  // metres: as high a step it climbs; and the least cosine between up and the normal of a ground
-  // that it stands on, default 0.7
+  // metres: the highest step that it climbs; and the least cosine between up and the normal of a
+  // ground that it stands on, default 0.7
   float step, slope;
-  // how often in a frame it goes on after a contact; default 4. Before driven bodies four times as
-  // often
+  // ways that it goes in a frame, from contact to contact, at most; default 4. Where it meets a
+  // driven body, four times as many
   size_t rounds;
   // units of each question, as question.work; default NSVCD_DEFAULT_SLIDE_WORK. What takes more is
   // stopped before it is decided
@@ -226,12 +229,12 @@ typedef struct nsvcd_velocity {
   float linear[3], angular[3];
 } nsvcd_velocity;
 
-// What became of a body in a frame. The body's next slide takes it back: what rested then, and is
-// told the same again while nothing near it has moved, rests without a question.
+// What became of a body in a frame. Hand it to the body's next slide: if the body rested, is told
+// the same again, and nothing near it has moved, it rests without a question.
 typedef struct nsvcd_slide_answer {
   // where the body is
   nsvcd_pose pose;
-  // of the frame, that it could make use of
+  // the part of the frame that it could use, up to 1. Its speed is less by the same factor
   float spent;
   // 1: it rests: it did not move at all, and its speed is 0
   int rests;
@@ -240,11 +243,11 @@ typedef struct nsvcd_slide_answer {
   float ground_normal[3];
   // the driven body that it could not get out of the way of; or nobody
   size_t caught;
-  // where it touches at the end, or within the margin; impulses as they were when it was there
+  // first those that took impulses on its way, then all within the margin at the end, some again
   size_t contact_count;
   nsvcd_world_contact contacts[NSVCD_WORLD_CONTACTS];
   size_t questions, work;
-  // what it was told, and when: the library's
+  // what it was told, and when: for the library only
   nsvcd_slide_options told;
   nsvcd_velocity given;
   float seconds;
@@ -252,23 +255,23 @@ typedef struct nsvcd_slide_answer {
 } nsvcd_slide_answer;
 
 // Moves a body of the world for a frame, at its speed: it goes as far as is proven free, loses the
-// speed that points into what it meets, and goes on with what is left of the frame. Its speed is
-// that which it has at the end. Gravity and other forces are the caller's to add to it before.
-//   world      the body is moved in it. One that was driven is so no more
-//   velocity   not NULL
+// speed that points into what it meets, and goes on with what is left of the frame. Gravity is the
+// caller's to add before.
+//   world      the body is moved in it; if it was driven, that ends it
+//   velocity   not NULL; becomes the speed at the end
 //   seconds    of the frame
-//   answer     not NULL; zeroed, or the one of the same body's slide before, which only ever saves
-//              time. On failure it, the velocity and the body are as they were
+//   answer     not NULL; zeroed, or that of the same body's slide before, which saves time. On
+//              failure it, the velocity and the body are as they were
 //   errors     those of nsvcd_world_sweep; SPEED, TIMES (`seconds`), CLEARANCE (clearance, margin),
 //              VALUE (a mass, an inertia, a friction, a restitution or a slope), AXIS (`up`),
 //              DISTANCE (`step`)
 //   source     sequential impulses (Catto 2006) for the contacts of one body; this library
 //
 // What is proven: where the body is at the end, it is farther than the clearance from every other
-// body, and was so on its way there. Where something else has come nearer to it than that, it is
-// pushed out, by at most four times the clearance, and meets nothing on that way. What a contact
-// does to its speed is no proof, only physics: impulses are those of a body that meets others that
-// rest or are driven. Whoever wants what is hit to move hands it the impulse.
+// body, and was so on its way there. If something had come nearer to it than that, it is pushed
+// out, if there is room, by at most four clearances and three margins, and meets nothing on that
+// way. What a contact does to its speed is not proven, it is physics: the others are taken to rest,
+// or to be driven. To move what is hit, give it the impulse, as nsvcd_world_step does.
 NSVCDDEF nsvcd_result nsvcd_world_slide(nsvcd_world *world, size_t id,
                                         const nsvcd_slide_options *options, float seconds,
                                         void *workspace, size_t workspace_size,
@@ -279,18 +282,17 @@ typedef struct nsvcd_world_mover {
   size_t id;
   // how it slides
   nsvcd_slide_options how;
-  // yours to change between two steps: what sleeps and is given a speed is awake
+  // yours to change between two steps. A sleeper that is given a speed wakes
   nsvcd_velocity velocity;
-  // kilograms: what a character pushes with; default 0: it pushes nothing. A character is whatever
-  // has no mass in `how`
+  // kilograms with which a character, which has no mass in `how`, pushes others; 0: it does not
   float push_mass;
-  // a second: the share of its speed, and of its spin, that it loses everywhere
+  // a second: the rates at which it loses speed, and spin, wherever it is
   float damping, spin_damping;
-  // 1: it sleeps: it stays where it is, and costs nothing. Yours to read, set and clear
+  // 1: it sleeps: it stays where it is, and costs next to nothing. Yours to read, set and clear
   int asleep;
-  // 1: it never falls asleep. Nor do characters
+  // 1: it never falls asleep, as characters never do
   int sleepless;
-  // seconds for which it has been quiet: the library's
+  // seconds for which it has been quiet: for the library only
   float calm;
   // of its last slide
   nsvcd_slide_answer answer;
@@ -300,14 +302,14 @@ typedef struct nsvcd_world_mover {
 typedef struct nsvcd_step_options {
   // metres a second squared; (0, 0, 0): there is none
   float gravity[3];
-  // metres a second, default 0.15: what touches something, and of which no point is faster than
-  // that, falls asleep after so many seconds, default 0.1
+  // what touches something and has no point faster than `quiet`, default 0.15 metres a second, for
+  // `calm` seconds, default 0.1, falls asleep
   float quiet, calm;
 } nsvcd_step_options;
 
 // What became of all movers in a frame.
 typedef struct nsvcd_step_answer {
-  // how many moved or could have, sleep at the end, and were caught
+  // how many slid; how many sleep at the end, some of which slid; how many were caught
   size_t awake, asleep, caught;
   // of all slides
   size_t contacts, questions, work;
@@ -315,37 +317,40 @@ typedef struct nsvcd_step_answer {
   size_t refused;
 } nsvcd_step_answer;
 
-// Moves bodies of a world for a frame, and ends it: each is given gravity and slides, the lowest
-// first, by its pivot and against gravity; what it hits has its part of the momentum then; who is
-// quiet for long enough falls asleep; and what is driven arrives.
-//   movers     (count), each of a body of its own; NULL if that is 0. In any order: what happens
-//              depends on it only between bodies of the same height, or without gravity
+// Moves bodies of a world for a frame, and ends it. Each is given gravity and slides, the one whose
+// pivot is lowest first, and what it hits gets its part of the momentum at once. Then what has been
+// quiet for long enough falls asleep, and what is driven arrives.
+//   movers     (count), each of a body of its own; NULL if that is 0. Their order matters only to
+//              bodies of the same height, or without gravity
 //   options    NULL: the defaults
 //   seconds    of the frame
-//   answer     may be NULL. On failure only its `refused` is set, but with POSE all of it
+//   answer     may be NULL. On failure only its `refused` is set, with POSE all of it
 //   allocates  nothing
 //   threads    as nsvcd_world_move
 //   errors     those of nsvcd_world_slide; INDEX (`id` is no body's, a fixed body's, or there
 //              twice), VALUE (a gravity, a push mass or a damping), SPEED (`quiet` too), TIMES
-//              (`calm` too). They are found before anything moves, and then everything is as it
-//              was. But POSE (a body is about to leave the coordinates) is found then: that body
-//              stays where it is, and all others have moved
+//              (`calm` too): all of these leave everything as it was. POSE (a body is about to
+//              leave the coordinates): that body stays where it is, and all others have moved
 //   source     sequential impulses (Catto 2006) for the pairs of a body and those that it met; this
 //              library
 //
-// What is proven is proven as of slides: no two bodies overlap, if none did. The rest is physics:
-//   Whoever stands on other movers on a lift that rises goes before all others, the highest first,
-// and as fast as the lift: so a stack rises with it.
-//   A mover that is driven (nsvcd_world_drive) goes where it is driven, for that frame, as one that
-// nothing stops, and its velocity is left alone.
-//   What two bodies give each other keeps their momentum along the normal, and gains no energy.
-// What comes no faster than gravity speeds it up in two frames, or, unless it is a character, than
-// twice `quiet`, gives nothing, or no pile would come to rest: such contacts only hold.
-//   What has a friction is braked where it touches: it loses 0.3 of its speed a second, 1.2 of its
-// spin, and 10 of both while it is nearly quiet.
-//   What sleeps wakes when it is given something, when what it touches is moved, removed or faster
-// than `quiet`, and when something is driven near it. Who is put to sleep before its first
-// frame is woken by all of these but what it touches, which nobody knows.
+// What is proven is what slides prove: no two bodies overlap, if none did. The rest is physics:
+//   A mover that stands on something driven, directly or by way of others, is carried: it goes along
+// with it, then slides at the speed that it has relative to it. So stacks ride on lifts, platforms
+// and turntables, as far as friction holds them. A mover that a lift comes up into is carried too,
+// and so is what is in the way of riders. Going along is proven like any way, but past what moves at
+// the same time it keeps only half the clearance. A mover that cannot go along, with all that stands
+// on it, slides in the world, before those that are carried.
+//   A mover that is driven (nsvcd_world_drive) goes where it is driven, for that frame, stops for
+// nothing, and keeps its velocity.
+//   What two bodies give each other keeps their momentum along the normal, and gains no energy. An
+// approach no faster than two frames of gravity, or, of a mover with a mass, than twice `quiet`,
+// gives nothing, or no pile would come to rest: such contacts only hold.
+//   A mover with a mass and a friction that touches something is braked: its speed falls at a rate
+// of 0.3 a second and its spin at 1.2, and both at 10 below 2.7 times `quiet`.
+//   A sleeper wakes when it is pushed, moved or given a speed, when what it touches is moved,
+// removed or faster than `quiet`, and when something is driven near it. One that was put to sleep
+// before its first frame has no contacts yet to be woken by.
 NSVCDDEF nsvcd_result nsvcd_world_step(nsvcd_world *world, nsvcd_world_mover *movers,
                                        size_t count, const nsvcd_step_options *options,
                                        float seconds, void *workspace, size_t workspace_size,
@@ -364,8 +369,8 @@ typedef struct nsvcd_mass {
   int is_of_box;
 } nsvcd_mass;
 
-// Computes the mass properties of a mesh. Exact, to rounding, where it is closed; that is held
-// against what any closed surface adds up to. Of parts that overlap what they share counts twice.
+// Computes the mass properties of a mesh: exactly, to rounding, if it is closed, which is tested by
+// sums that hold for every closed surface. What parts that overlap share counts twice.
 //   mesh, mass  not NULL; left as it was on failure
 //   allocates   nothing
 //   errors      ARGUMENT, INDEX, NUMBER, EMPTY
@@ -1252,6 +1257,36 @@ static nsvcd__box nsvcd__box_of_way(const nsvcd__shape_box *shape, const nsvcd_p
   return out;
 }
 
+// Is a turn so near to half a turn that rounding may decide which way it goes?
+static int nsvcd__is_half_turn(const nsvcd_pose *poses, size_t count) {
+  return count > 1 && nsvcd__slerp_of(&poses[0], &poses[1]).half_angle > 1.5;
+}
+
+// A pose as it is seen from a frame.
+static nsvcd_pose nsvcd__seen_from(const nsvcd_pose *frame, const nsvcd_pose *pose) {
+  const nsvcd__dpose from = nsvcd__unit_dpose(frame);
+  const nsvcd__dpose at = nsvcd__unit_dpose(pose);
+  const nsvcd__dtransform place = nsvcd__dtransform_of(&from);
+  nsvcd__dpose out;
+  out.rotation = nsvcd__dquat_mul(nsvcd__dquat_inverse(from.rotation), at.rotation);
+  out.position =
+      nsvcd__dmat3_apply_transpose(&place.rotation, nsvcd__d3_sub(at.position, from.position));
+  return nsvcd__dpose_round(&out);
+}
+
+// Do the boxes of a way of one or two poses, larger by `more`, and of a body at rest meet in a
+// frame? A line is one, and a slerp is one, in any frame that does not move.
+static int nsvcd__boxes_meet_in(const nsvcd_pose *frame, const nsvcd__shape_box *shape,
+                                const nsvcd_pose *poses, size_t count, double more,
+                                const nsvcd__shape_box *other, const nsvcd_pose *at) {
+  const nsvcd_pose there = nsvcd__seen_from(frame, at);
+  nsvcd_pose way[2];
+  for (size_t k = 0; k < count; k++) way[k] = nsvcd__seen_from(frame, &poses[k]);
+  const nsvcd__box a = nsvcd__box_of_way(shape, way, count, more);
+  const nsvcd__box b = nsvcd__box_of_pose(other, &there, 0);
+  return nsvcd__boxes_meet(&a, &b);
+}
+
 // -------------------------------------------------------------------------------------- world/tree
 // In: boxes, each with a number from 1 on. Out: a tree in which those that meet a box are found.
 //
@@ -1422,10 +1457,16 @@ typedef struct nsvcd__resident {
   // when it came to where it is, on the world's clock
   uint64_t moved;
   uint32_t next_free;
-  // which of a step's movers it was last; and how fast a lift raises it, negative if it stands on
-  // that itself, and not by way of others
+  // which of a step's movers it was last
   uint32_t mover;
-  float rise;
+  // during that step: the driven body that carries it; that it is in the way of what this one
+  // carries; or that it cannot be carried
+  uint32_t carrier, joins;
+  int stays;
+  // when its way along was proven to be free, on the world's clock; metres and radians a second of
+  // it; and its speed besides
+  uint64_t proven;
+  nsvcd__d3 goes, turns, slips;
 } nsvcd__resident;
 
 // One of a step's movers, and how high it is.
@@ -1679,8 +1720,9 @@ typedef struct nsvcd__asker {
   uint32_t groups, passes;
   int with_sensors;
   nsvcd__shape_box shape;
-  // what its way may come near
+  // what its way may come near, and how near, metres
   nsvcd__box box;
+  double apart;
   // driven bodies are asked about from this part of the frame on, as is the mover; or only then
   double since;
   int at_once;
@@ -1693,10 +1735,11 @@ typedef struct nsvcd__asker {
 
 // Turns to other poses of the mover.
 static void nsvcd__asker_goes(nsvcd__asker *q, const nsvcd_pose *poses, size_t count) {
-  const double apart = (double)q->question.clearance + (double)q->question.tolerance;
+  q->apart =
+      (double)q->question.clearance + (double)q->question.tolerance + (double)q->question.slop;
   q->question.a.poses = poses;
   q->question.a.count = count;
-  q->box = nsvcd__box_of_way(&q->shape, poses, count, apart + (double)q->question.slop);
+  q->box = nsvcd__box_of_way(&q->shape, poses, count, q->apart);
 }
 
 // Where a body is in the part of the frame that is asked about: writes its poses and how many.
@@ -1714,6 +1757,17 @@ static void nsvcd__asker_sees(nsvcd__asker *q, const nsvcd__resident *r, nsvcd_m
   mover->count = q->at_once ? 1 : 2;
 }
 
+// May the mover, whose box meets that of a body, meet the body, as boxes in the frames of both
+// tell? Where it turns half around, rounding decides which way.
+static int nsvcd__asker_may_meet(const nsvcd__asker *q, const nsvcd__resident *r) {
+  const nsvcd_mover *a = &q->question.a;
+  const nsvcd_pose *at = &r->given.pose;
+  if (r->is_driven || a->count > 2 || nsvcd__is_half_turn(a->poses, a->count)) return 1;
+  return nsvcd__boxes_meet_in(at, &q->shape, a->poses, a->count, q->apart, &r->shape, at) &&
+         nsvcd__boxes_meet_in(&a->poses[0], &q->shape, a->poses, a->count, q->apart, &r->shape,
+                              at);
+}
+
 // The next body that the mover may meet after body `at`, or the first if that is 0; 0: none.
 static uint32_t nsvcd__asker_next(const nsvcd__asker *q, uint32_t at) {
   const nsvcd_world *world = q->world;
@@ -1721,7 +1775,7 @@ static uint32_t nsvcd__asker_next(const nsvcd__asker *q, uint32_t at) {
     const nsvcd__resident *r = &world->residents[at];
     if (at == q->self || (r->given.sensor && !q->with_sensors)) continue;
     if (!nsvcd__groups_meet(q->groups, q->passes, &r->given)) continue;
-    if (nsvcd__boxes_meet(&q->box, &r->box)) return at;
+    if (nsvcd__boxes_meet(&q->box, &r->box) && nsvcd__asker_may_meet(q, r)) return at;
   }
   return 0;
 }
@@ -2244,6 +2298,8 @@ static nsvcd__d3 nsvcd__leaving(const nsvcd__hold *holds, size_t count, double s
 #define NSVCD__USUAL_CLEARANCE 0.005
 #define NSVCD__USUAL_ROUNDS 4
 #define NSVCD__USUAL_SLOPE 0.7
+// the least cosine of an edge of a step that feet stand on
+#define NSVCD__EDGE_SLOPE 0.05
 // of the margin: how exact stops are
 #define NSVCD__STOPS_WITHIN 0.05
 // of the margin: a way in which no point goes farther is none for what rubs against something
@@ -2262,9 +2318,12 @@ typedef struct nsvcd__slide {
   double clearance, margin, seconds;
   // of the frame; and what of it was of no use
   double left, lost;
-  // unit, or 0; the least cosine of a ground
+  // unit, or 0; the least cosine of a ground; and whether it may be an edge of a step in this round
   nsvcd__d3 up;
   double slope;
+  int is_on_edge;
+  // it was given a speed upwards
+  int jumps;
   // the speed of what it rides on; and the speed besides its own with which it leaves what is near
   nsvcd__d3 ridden, leaves;
   // what its last way met first; or nobody
@@ -2310,12 +2369,18 @@ static nsvcd__d3 nsvcd__driven_speed(const nsvcd__slide *s, size_t id, nsvcd__d3
   return nsvcd__d3_scale(moved, 1 / (s->left * s->seconds));
 }
 
+// How fast what is carried slips along a contact: it has moved already, and only friction sees it.
+static nsvcd__d3 nsvcd__slip_of(const nsvcd__resident *r, nsvcd__d3 normal) {
+  if (!r->carrier) return nsvcd__d3_of(0, 0, 0);
+  return nsvcd__d3_fma(-nsvcd__d3_dot(r->slips, normal), normal, r->slips);
+}
+
 // Finds all contacts at the pose now, behind those that have pushed, and what they ask for.
 static void nsvcd__slide_look(nsvcd__slide *s) {
   const nsvcd__d3 pivot = nsvcd__pivot_at(s);
   const double time = nsvcd__max(s->left, 1e-3) * s->seconds;
   const float within = (float)(s->clearance + 2 * s->margin);
-  double flattest = s->slope;
+  double flattest = s->is_on_edge ? NSVCD__EDGE_SLOPE : s->slope;
   size_t kept = 0;
   for (size_t k = 0; k < s->contact_count; k++)
     if (s->contacts[k].impulse > 0) s->contacts[kept++] = s->contacts[k];
@@ -2333,7 +2398,9 @@ static void nsvcd__slide_look(nsvcd__slide *s) {
     memset(h, 0, sizeof *h);
     h->normal = nsvcd__d3_load(c->normal);
     const nsvcd__d3 on_other = nsvcd__d3_load(c->point);
-    h->speed = nsvcd__driven_speed(s, s->contacts[k].body, on_other);
+    const nsvcd__d3 driven = nsvcd__driven_speed(s, s->contacts[k].body, on_other);
+    h->speed = nsvcd__d3_add(
+        driven, nsvcd__slip_of(&s->ask.world->residents[s->contacts[k].body], h->normal));
     h->arm = nsvcd__d3_sub(nsvcd__d3_fma((double)c->gap, h->normal, on_other), pivot);
     h->lacks = s->clearance + 0.5 * s->margin - (double)c->gap;
     h->least = nsvcd__min(s->clearance + s->margin - (double)c->gap, 0) / time;
@@ -2457,20 +2524,30 @@ static double nsvcd__travel_left(const nsvcd__slide *s) {
 // -------------------------------------------------------------------------------------- world/walk
 // In: a character that stands, or stood. Out: it walks on grounds, along walls, up and down steps.
 
-// the least cosine of an edge of a step that feet stand on
-#define NSVCD__EDGE_SLOPE 0.05
-
 static nsvcd__d3 nsvcd__flat_part(const nsvcd__slide *s, nsvcd__d3 a) {
   return nsvcd__d3_fma(-nsvcd__d3_dot(a, s->up), s->up, a);
 }
 
+// Has it go with what it stands on.
+static void nsvcd__ride(nsvcd__slide *s) {
+  if (!s->ground) return;
+  const nsvcd__d3 own = nsvcd__d3_sub(s->thing.linear, s->ridden);
+  s->ridden = nsvcd__driven_speed(s, s->ground->body, nsvcd__pivot_at(s));
+  s->thing.linear = nsvcd__d3_add(own, s->ridden);
+}
+
 // What is too steep to stand on is a wall. For whoever stands it is upright; who is in the air
-// slides down it, but does not rise by walking into it.
+// slides down it, but does not rise by walking into it. An edge that feet stand on is level: it
+// bears them, and neither throws them up nor stops them.
 static void nsvcd__meet_walls(nsvcd__slide *s) {
   for (size_t k = s->kept; k < s->contact_count; k++) {
     nsvcd__hold *h = &s->holds[k];
     const double rise = nsvcd__d3_dot(h->normal, s->up);
     if (!(rise > 0) || rise >= s->slope) continue;
+    if (s->is_on_edge && rise >= NSVCD__EDGE_SLOPE) {
+      h->normal = s->up;
+      continue;
+    }
     const nsvcd__d3 flat = nsvcd__flat_part(s, h->normal);
     const nsvcd__d3 away = nsvcd__d3_scale(flat, 1 / nsvcd__d3_norm(flat));
     const double into = nsvcd__d3_dot(nsvcd__d3_sub(h->speed, s->thing.linear), away);
@@ -2482,7 +2559,7 @@ static void nsvcd__meet_walls(nsvcd__slide *s) {
 // Whoever stands on a ground does not slide down it, and walks up it as fast as on the level.
 static void nsvcd__stand(nsvcd__slide *s) {
   if (s->ground) {
-    const nsvcd__d3 n = nsvcd__d3_load(s->ground->contact.normal);
+    const nsvcd__d3 n = s->is_on_edge ? s->up : nsvcd__d3_load(s->ground->contact.normal);
     const nsvcd__d3 own = nsvcd__d3_sub(s->thing.linear, s->ridden);
     const int falls = nsvcd__d3_dot(own, s->up) < 0;
     const double steep = nsvcd__d3_dot(n, s->up);
@@ -2496,9 +2573,22 @@ static void nsvcd__stand(nsvcd__slide *s) {
   nsvcd__meet_walls(s);
 }
 
-// Onto a step: up, along, and down again. What has been gone of the way is not gone again. Returns
-// whether that led onto ground.
-static int nsvcd__climb(nsvcd__slide *s) {
+// Round feet meet the edge of a step long before they are above it. It is one if a step farther on
+// there is ground, no higher than a step. Moves the body there, or wherever it gets to.
+static int nsvcd__is_edge_of_step(nsvcd__slide *s) {
+  const double step = (double)s->given->step;
+  const nsvcd__d3 walks = nsvcd__flat_part(s, nsvcd__d3_sub(s->thing.linear, s->ridden));
+  const nsvcd__d3 way = nsvcd__d3_scale(walks, step / nsvcd__d3_norm(walks));
+  const double risen = step * nsvcd__go_by(s, nsvcd__d3_scale(s->up, step));
+  const double gone = nsvcd__go_by(s, way);
+  (void)nsvcd__go_by(s, nsvcd__d3_scale(s->up, -risen - s->margin));
+  nsvcd__slide_look(s);
+  return gone >= 1 && s->ground;
+}
+
+// Onto a step, or its edge, if there is one: up, along, and down again. What has been gone of the
+// way is not gone again.
+static void nsvcd__climb(nsvcd__slide *s) {
   const double step = (double)s->given->step;
   const nsvcd_pose start = s->pose;
   const double time = s->left * s->seconds * s->pace;
@@ -2508,33 +2598,22 @@ static int nsvcd__climb(nsvcd__slide *s) {
   const double gone = nsvcd__go_by(s, way);
   const double drop = risen + s->margin;
   const double dropped = drop * nsvcd__go_by(s, nsvcd__d3_scale(s->up, -drop));
-  const int is_higher = dropped < risen - s->margin && gone > 0;
-  if (is_higher) nsvcd__slide_look(s);
-  if (is_higher && s->ground) {
-    s->pace *= 1 - gone;
-    return 1;
+  const nsvcd_pose above = s->pose;
+  int is_up = dropped < risen - s->margin && gone > 0;
+  if (is_up) nsvcd__slide_look(s);
+  if (dropped < risen && gone > 0 && !(is_up && s->ground)) {
+    s->pose = start;
+    is_up = s->is_on_edge = nsvcd__is_edge_of_step(s);
+    s->pose = above;
+    if (is_up) nsvcd__slide_look(s);
   }
-  s->pose = start;
-  if (is_higher) nsvcd__slide_look(s);
-  return 0;
-}
-
-// Round feet meet the edge of a step long before they are above it. It is one if a step farther on
-// there is ground, no higher than a step.
-static int nsvcd__is_edge_of_step(nsvcd__slide *s) {
-  const double step = (double)s->given->step;
-  const nsvcd_pose start = s->pose;
-  const nsvcd__d3 walks = nsvcd__flat_part(s, nsvcd__d3_sub(s->thing.linear, s->ridden));
-  const nsvcd__d3 way = nsvcd__d3_scale(walks, step / nsvcd__d3_norm(walks));
-  const double risen = step * nsvcd__go_by(s, nsvcd__d3_scale(s->up, step));
-  const double gone = nsvcd__go_by(s, way);
-  (void)nsvcd__go_by(s, nsvcd__d3_scale(s->up, -risen - s->margin));
-  nsvcd__slide_look(s);
-  const int is_step = gone >= 1 && s->ground;
-  if (is_step) s->slope = NSVCD__EDGE_SLOPE;
+  if (is_up && s->ground) {
+    s->pace *= 1 - gone;
+    return;
+  }
+  s->is_on_edge = 0;
   s->pose = start;
   nsvcd__slide_look(s);
-  return is_step;
 }
 
 // Whoever stood on a ground and walked off it steps down, if there is a ground to step down on.
@@ -2547,10 +2626,18 @@ static void nsvcd__step_down(nsvcd__slide *s) {
   s->pose = above;
 }
 
+// Whoever stood, and did not jump, does not fly off what it walked up: it keeps no speed upwards.
+static void nsvcd__stop_climbing(nsvcd__slide *s) {
+  const nsvcd__d3 own = nsvcd__d3_sub(s->thing.linear, s->ridden);
+  const double up = nsvcd__max(nsvcd__d3_dot(own, s->up), 0);
+  if (s->jumps) return;
+  s->thing.linear = nsvcd__d3_fma(-up, s->up, s->thing.linear);
+}
+
 // Is there something too steep to stand on in the way of whoever stands, or is on an edge?
 static int nsvcd__is_before_step(const nsvcd__slide *s) {
   const nsvcd__d3 walks = nsvcd__flat_part(s, nsvcd__d3_sub(s->thing.linear, s->ridden));
-  if (!(s->given->step > 0)) return 0;
+  if (!(s->given->step > 0) || s->jumps) return 0;
   for (size_t k = s->kept; k < s->contact_count; k++) {
     const nsvcd__d3 n = s->holds[k].normal;
     const double rise = nsvcd__d3_dot(n, s->up);
@@ -2605,6 +2692,10 @@ static nsvcd__thing nsvcd__thing_of(const nsvcd_slide_options *given, const nsvc
   return out;
 }
 
+static double nsvcd__kept_clearance(const nsvcd_slide_options *given, double reach) {
+  return given->clearance > 0 ? (double)given->clearance : NSVCD__USUAL_CLEARANCE * reach;
+}
+
 static nsvcd_result nsvcd__slide_begin(const nsvcd_world *world, size_t id,
                                        const nsvcd_slide_options *given, float seconds,
                                        void *workspace, size_t size,
@@ -2619,14 +2710,14 @@ static nsvcd_result nsvcd__slide_begin(const nsvcd_world *world, size_t id,
   nsvcd_result result = nsvcd__slide_check(given, seconds, velocity);
   if (!result) result = nsvcd__asker_begin(world, &asked, workspace, size, &s->ask);
   if (result) return result;
-  const double usual = NSVCD__USUAL_CLEARANCE * s->ask.shape.reach;
   s->given = given;
   s->pose = world->residents[id].given.pose;
-  s->clearance = given->clearance > 0 ? (double)given->clearance : usual;
+  s->clearance = nsvcd__kept_clearance(given, s->ask.shape.reach);
   s->margin = given->margin > 0 ? (double)given->margin : s->clearance;
   s->seconds = (double)seconds;
   s->left = s->pace = 1;
   s->up = nsvcd__d3_load(given->up);
+  s->jumps = nsvcd__d3_dot(nsvcd__d3_load(velocity->linear), s->up) > 0;
   s->slope = given->slope > 0 ? (double)given->slope : NSVCD__USUAL_SLOPE;
   s->ask.question.clearance = (float)s->clearance;
   s->ask.question.to = (float)(NSVCD__STOPS_WITHIN * s->margin);
@@ -2673,20 +2764,20 @@ static int nsvcd__rests_again(nsvcd__slide *s, float seconds, const nsvcd_veloci
 // there is to be another one.
 static int nsvcd__slide_round(nsvcd__slide *s, int is_first, int *rests) {
   nsvcd__thing *thing = &s->thing;
+  s->is_on_edge = 0;
   nsvcd__slide_look(s);
-  if (s->ground) {
-    const nsvcd__d3 before = s->ridden;
-    s->ridden = nsvcd__driven_speed(s, s->ground->body, nsvcd__pivot_at(s));
-    thing->linear = nsvcd__d3_add(thing->linear, nsvcd__d3_sub(s->ridden, before));
+  nsvcd__ride(s);
+  if (nsvcd__is_before_step(s)) {
+    nsvcd__climb(s);
+    nsvcd__ride(s);
   }
-  if (nsvcd__is_before_step(s) && !nsvcd__climb(s)) (void)nsvcd__is_edge_of_step(s);
   nsvcd__stand(s);
   nsvcd__slide_respond(s);
   const double turn = nsvcd__d3_norm(thing->angular) * s->left * s->seconds;
   if (turn > NSVCD__MOST_TURN)
     thing->angular = nsvcd__d3_scale(thing->angular, NSVCD__MOST_TURN / turn);
   const nsvcd_pose to = nsvcd__aim(s, s->left * s->seconds);
-  if (nsvcd__is_still(s, &to)) {
+  if (s->pace >= 1 && nsvcd__is_still(s, &to)) {
     thing->linear = thing->angular = nsvcd__d3_of(0, 0, 0);
     s->left = 0;
     *rests = is_first;
@@ -2756,6 +2847,7 @@ NSVCDDEF nsvcd_result nsvcd_world_slide(nsvcd_world *world, size_t id,
     s.left = left;
     if (free_until < 1) out.caught = s.met;
   }
+  if (stood) nsvcd__stop_climbing(&s);
   const double rises = nsvcd__d3_dot(nsvcd__d3_sub(s.thing.linear, s.ridden), s.up);
   s.lost = s.left;
   if (nsvcd__d3_dot(s.up, s.up) > 0 && !s.ask.result && !out.rests) {
@@ -2828,6 +2920,8 @@ typedef struct nsvcd__encounter {
 
 typedef struct nsvcd__momentum {
   nsvcd__thing thing;
+  // the speed of the frame in which the body slid
+  nsvcd__d3 frame;
   size_t count, met_count;
   nsvcd__encounter encounters[NSVCD_WORLD_CONTACTS];
   // the movers that take part
@@ -2888,7 +2982,10 @@ static void nsvcd__momentum_begin(const nsvcd__crowd *crowd, nsvcd_world_mover *
     size_t j = 0;
     while (j < p->met_count && p->met[j] != met) j++;
     const nsvcd_pose *there = &crowd->world->residents[met->id].given.pose;
-    if (j == p->met_count) p->things[j] = nsvcd__thing_of(&met->how, there, &met->velocity);
+    if (j == p->met_count) {
+      p->things[j] = nsvcd__thing_of(&met->how, there, &met->velocity);
+      p->things[j].linear = nsvcd__d3_sub(p->things[j].linear, p->frame);
+    }
     at->other = nsvcd__hold_of(crowd, met->id, &p->things[j], &c->contact);
     if (!nsvcd__takes_part(crowd, m, &came, at, &p->things[j])) continue;
     const double nears =
@@ -2953,22 +3050,26 @@ static void nsvcd__set_velocity(nsvcd__thing *thing, const nsvcd_velocity *veloc
   thing->linear = nsvcd__d3_load(velocity->linear);
   thing->angular = nsvcd__d3_load(velocity->angular);
 }
-// Takes a speed half way back to what it was.
-static void nsvcd__halve_change(nsvcd__thing *thing, const nsvcd_velocity *was) {
+// Takes a speed half way back to what it was, in a frame.
+static void nsvcd__halve_change(nsvcd__thing *thing, const nsvcd_velocity *was,
+                                nsvcd__d3 frame) {
   const nsvcd__thing now = *thing;
   nsvcd__set_velocity(thing, was);
+  thing->linear = nsvcd__d3_sub(thing->linear, frame);
   thing->linear = nsvcd__d3_mix(thing->linear, now.linear, 0.5);
   thing->angular = nsvcd__d3_mix(thing->angular, now.angular, 0.5);
 }
 
-// A body has slid, and came at a speed: it and what it met share their momentum.
+// A body has slid, and came at a speed, in a frame that moves at another: it and what it met share
+// their momentum.
 static void nsvcd__share_momentum(const nsvcd__crowd *crowd, nsvcd_world_mover *m,
-                                  const nsvcd_velocity *came) {
+                                  const nsvcd_velocity *came, nsvcd__d3 frame) {
   nsvcd__momentum p;
   double most = 0;
   double change = 1;
   const double mass = m->how.mass > 0 ? 1 : (double)m->push_mass;
   if (!(mass > 0) || m->answer.rests) return;
+  p.frame = frame;
   nsvcd__momentum_begin(crowd, m, came, &p);
   if (p.met_count == 0) return;
   const nsvcd__thing slid = p.thing;
@@ -2986,9 +3087,9 @@ static void nsvcd__share_momentum(const nsvcd__crowd *crowd, nsvcd_world_mover *
   double share = 1;
   for (; nsvcd__energy_of_all(&p) > energy; share *= 0.5) {
     if (share < NSVCD__LEAST_SHARE) return;
-    nsvcd__halve_change(&p.thing, came);
+    nsvcd__halve_change(&p.thing, came, nsvcd__d3_of(0, 0, 0));
     for (size_t j = 0; j < p.met_count; j++)
-      nsvcd__halve_change(&p.things[j], &p.met[j]->velocity);
+      nsvcd__halve_change(&p.things[j], &p.met[j]->velocity, frame);
   }
   nsvcd__tell_velocity(&p.thing, &m->velocity);
   for (size_t k = 0; k < p.count; k++) {
@@ -2997,9 +3098,222 @@ static void nsvcd__share_momentum(const nsvcd__crowd *crowd, nsvcd_world_mover *
     at->contact->impulse = (float)(held + share * at->own.pushed / mass);
   }
   for (size_t j = 0; j < p.met_count; j++) {
+    p.things[j].linear = nsvcd__d3_add(p.things[j].linear, frame);
     nsvcd__tell_velocity(&p.things[j], &p.met[j]->velocity);
     if (p.met[j]->asleep) nsvcd__wake(p.met[j]);
   }
+}
+
+// ------------------------------------------------------------------------------------- world/carry
+// In: movers, and what is driven in this frame. Out: whoever stands on something driven, be it by
+// way of others, has gone along with it.
+//
+// As a lift sees it, a stack on it is at rest. So all of it moves in the frame of the lift: first
+// it goes along, at the same time as the lift; and when all that is driven has arrived, each slides
+// at the speed that it has besides, and gets that of the lift again.
+//
+// Going along is proven as any way is: against all that rests, and all that is driven or carried
+// meanwhile. A mover that is in the way is carried too, as is what a lift comes up into. Who cannot
+// go along stays, as does whoever stands on it: they slide while the lift moves, as those do who
+// stand on nothing driven.
+
+// radians: what turns by more in a frame carries nobody
+#define NSVCD__CARRIES_TURN 0.5
+// metres a second: what carries a point as fast as another to this does so as one with it
+#define NSVCD__CARRIES_SAME 1e-3
+// of the clearance: how near those who are carried may come to what moves with them, by rounding
+#define NSVCD__CARRIES_WITHIN 0.5f
+// rounds in which those who stay are found; then all stay
+#define NSVCD__CARRY_ROUNDS 20
+
+static nsvcd__d3 nsvcd__mover_centre(const nsvcd__crowd *crowd, const nsvcd_world_mover *m) {
+  const nsvcd__resident *r = &crowd->world->residents[m->id];
+  return nsvcd__pivot_of(&r->given.pose, r->shape.pivot);
+}
+
+// How fast a driven body takes a point along that is there now, metres a second; 0: it is not
+// driven.
+static nsvcd__d3 nsvcd__takes_along(const nsvcd__crowd *crowd, const nsvcd__resident *r,
+                                    nsvcd__d3 point) {
+  if (!r->is_driven) return nsvcd__d3_of(0, 0, 0);
+  const nsvcd__dpose from = nsvcd__dpose_of(&r->given.pose);
+  const nsvcd__d3 moved = nsvcd__moved_along(&from, &r->to, point);
+  return nsvcd__d3_over(moved, (double)crowd->seconds);
+}
+
+// The next body beneath a mover, as it was after its last slide, from contact *n on; or NULL.
+static const nsvcd__resident *nsvcd__next_beneath(const nsvcd__crowd *crowd,
+                                                  const nsvcd_world_mover *m, size_t *n) {
+  while (*n < m->answer.contact_count && *n < NSVCD_WORLD_CONTACTS) {
+    const nsvcd_world_contact *c = &m->answer.contacts[(*n)++];
+    const nsvcd__resident *r = nsvcd__resident_of(crowd->world, c->body);
+    if (r && nsvcd__d3_dot(nsvcd__d3_load(c->contact.normal), crowd->up) > 0.5) return r;
+  }
+  return NULL;
+}
+
+// Which driven body carries a mover; or nobody. Who stands on something else too slides.
+static uint32_t nsvcd__carrier_of(const nsvcd__crowd *crowd, const nsvcd_world_mover *m) {
+  const nsvcd__resident *all = crowd->world->residents;
+  const nsvcd__d3 centre = nsvcd__mover_centre(crowd, m);
+  const nsvcd__resident *r;
+  nsvcd__d3 goes = {0, 0, 0};
+  uint32_t out = all[m->id].joins;
+  if (all[m->id].stays || out) return all[m->id].stays ? NSVCD_NOBODY : out;
+  for (size_t n = 0; (r = nsvcd__next_beneath(crowd, m, &n)) != NULL;) {
+    const uint32_t id = r->carrier ? r->carrier : r->is_driven ? (uint32_t)(r - all) : 0;
+    const nsvcd__d3 other = nsvcd__takes_along(crowd, &all[id], centre);
+    const double differs = out ? nsvcd__d3_norm(nsvcd__d3_sub(other, goes)) : 0;
+    if (!id || differs > NSVCD__CARRIES_SAME) return NSVCD_NOBODY;
+    if (!out) goes = other;
+    if (!out) out = id;
+  }
+  return out;
+}
+
+// Has a mover go along with a driven body, over the frame as that does; or, with nobody, stay.
+static void nsvcd__carry(const nsvcd__crowd *crowd, nsvcd_world_mover *m, uint32_t carrier) {
+  nsvcd_world *world = crowd->world;
+  nsvcd__resident *r = &world->residents[m->id];
+  const nsvcd__resident *by = &world->residents[carrier];
+  const nsvcd_pose stays = r->given.pose;
+  int goes = carrier != NSVCD_NOBODY;
+  if (goes) {
+    const nsvcd__slerp slerp = nsvcd__slerp_of(&by->given.pose, &by->to);
+    const nsvcd__dpose from = nsvcd__dpose_of(&by->given.pose);
+    const nsvcd__d3 turn = nsvcd__slerp_turn(&slerp);
+    nsvcd__dpose to = nsvcd__unit_dpose(&stays);
+    const nsvcd__dquat by_turn =
+        nsvcd__dquat_mul(slerp.end, nsvcd__dquat_inverse(slerp.start));
+    to.position = nsvcd__d3_add(to.position, nsvcd__moved_along(&from, &by->to, to.position));
+    to.rotation = nsvcd__dquat_mul(by_turn, to.rotation);
+    const nsvcd_pose end = nsvcd__dpose_round(&to);
+    r->goes = nsvcd__takes_along(crowd, by, nsvcd__mover_centre(crowd, m));
+    r->turns = nsvcd__d3_over(turn, (double)crowd->seconds);
+    goes = nsvcd__d3_norm(turn) < NSVCD__CARRIES_TURN &&
+           !nsvcd__world_place(world, m->id, &end, 1);
+    if (m->asleep) nsvcd__wake(m);
+  }
+  r->stays |= carrier && !goes;
+  r->carrier = goes ? carrier : NSVCD_NOBODY;
+  if (!goes) (void)nsvcd__world_place(world, m->id, &stays, 0);
+}
+
+// Turns a mover into one who asks whether it is free.
+static nsvcd_result nsvcd__carried_asker(const nsvcd__crowd *crowd, const nsvcd_world_mover *m,
+                                         void *workspace, size_t size, nsvcd__asker *q) {
+  const nsvcd__resident *r = &crowd->world->residents[m->id];
+  nsvcd_world_question asked;
+  memset(&asked, 0, sizeof asked);
+  asked.self = m->id;
+  asked.question.clearance = (float)nsvcd__kept_clearance(&m->how, r->shape.reach);
+  asked.question.work = m->how.work ? m->how.work : NSVCD_DEFAULT_SLIDE_WORK;
+  return nsvcd__asker_begin(crowd->world, &asked, workspace, size, q);
+}
+
+// What is driven up into a mover where it is lifts it, as what it stands on does; or nobody.
+static uint32_t nsvcd__lifter_of(const nsvcd__crowd *crowd, const nsvcd_world_mover *m,
+                                 void *workspace, size_t size, nsvcd_step_answer *out) {
+  const nsvcd__d3 centre = nsvcd__mover_centre(crowd, m);
+  uint32_t found = NSVCD_NOBODY;
+  nsvcd__asker q;
+  if (nsvcd__carried_asker(crowd, m, workspace, size, &q)) return found;
+  for (uint32_t id = 0; !found && (id = nsvcd__asker_next(&q, id)) != 0;) {
+    const nsvcd__resident *o = &crowd->world->residents[id];
+    const nsvcd__d3 goes = nsvcd__takes_along(crowd, o, centre);
+    nsvcd_answer answer;
+    if (o->carrier || !(nsvcd__d3_dot(goes, crowd->up) > 0.5 * nsvcd__d3_norm(goes))) continue;
+    if (nsvcd__ask_about(&q, id, &answer) && answer.verdict != NSVCD_FREE) found = id;
+  }
+  out->questions += q.questions;
+  out->work += q.work;
+  return found;
+}
+
+// Is the way on which a mover is carried free? What is known since neither of two has changed is
+// not asked again. If it is not, the mover stays, or what it meets is carried too.
+static int nsvcd__may_go_along(const nsvcd__crowd *crowd, const nsvcd_world_mover *m,
+                               void *workspace, size_t size, nsvcd_step_answer *out) {
+  nsvcd__asker q;
+  nsvcd_world *world = crowd->world;
+  nsvcd__resident *r = &world->residents[m->id];
+  const nsvcd_pose way[2] = {r->given.pose, r->to};
+  r->stays = nsvcd__carried_asker(crowd, m, workspace, size, &q) != NSVCD_OK;
+  if (r->stays) return 0;
+  const float clearance = q.question.clearance;
+  nsvcd__asker_goes(&q, way, 2);
+  int is_free = 1;
+  for (uint32_t id = 0; is_free && (id = nsvcd__asker_next(&q, id)) != 0;) {
+    nsvcd__resident *o = &world->residents[id];
+    const uint64_t moved = r->moved > o->moved ? r->moved : o->moved;
+    nsvcd_answer answer;
+    if (r->proven >= moved || o->proven >= moved) continue;
+    q.question.clearance = o->is_driven ? NSVCD__CARRIES_WITHIN * clearance : clearance;
+    is_free = nsvcd__ask_about(&q, id, &answer) && answer.verdict == NSVCD_FREE;
+    if (is_free) continue;
+    const int may_join = nsvcd__mover_with(crowd, id) && !o->is_driven && !o->stays;
+    if (may_join) o->joins = r->carrier;
+    r->stays = !may_join;
+  }
+  if (is_free) r->proven = world->clock;
+  out->questions += q.questions;
+  out->work += q.work;
+  return is_free;
+}
+
+// Finds who is carried, by what and how far, and has them go there.
+static void nsvcd__carry_all(const nsvcd__crowd *crowd, void *workspace, size_t size,
+                             nsvcd_step_answer *out) {
+  const nsvcd_world *world = crowd->world;
+  int more = 1;
+  for (int round = 0; more; round++) {
+    more = 0;
+    // the lowest first: what it stands on comes before it
+    for (size_t k = 0; k < crowd->count; k++) {
+      nsvcd_world_mover *m = &crowd->movers[world->turns[k].mover];
+      nsvcd__resident *r = &world->residents[m->id];
+      if (r->is_driven && !r->carrier) continue;
+      r->stays |= round >= NSVCD__CARRY_ROUNDS;
+      uint32_t carrier = nsvcd__carrier_of(crowd, m);
+      if (!carrier && round == 0)
+        carrier = r->joins = nsvcd__lifter_of(crowd, m, workspace, size, out);
+      if (carrier != r->carrier) nsvcd__carry(crowd, m, carrier);
+    }
+    for (size_t k = 0; k < crowd->count; k++) {
+      const nsvcd_world_mover *m = &crowd->movers[world->turns[k].mover];
+      if (world->residents[m->id].carrier)
+        more |= !nsvcd__may_go_along(crowd, m, workspace, size, out);
+    }
+  }
+  for (size_t k = 0; k < crowd->count; k++) {
+    nsvcd__resident *r = &world->residents[crowd->movers[k].id];
+    const nsvcd_pose to = r->to;
+    const nsvcd_world_mover *m = &crowd->movers[k];
+    if (!r->carrier) continue;
+    (void)nsvcd__world_place(crowd->world, m->id, &to, 0);
+    if (!(m->how.mass > 0)) continue;
+    r->slips = nsvcd__d3_sub(nsvcd__d3_load(m->velocity.linear), r->goes);
+  }
+}
+
+static void nsvcd__end_carrying(const nsvcd_world *world) {
+  for (uint32_t id = 1; id <= world->count; id++) {
+    nsvcd__resident *r = &world->residents[id];
+    r->carrier = r->joins = NSVCD_NOBODY;
+    r->proven = 0;
+    r->stays = 0;
+    r->slips = nsvcd__d3_of(0, 0, 0);
+  }
+}
+
+// Adds to a velocity, so many times, that of what carries a mover.
+static void nsvcd__add_carried(const nsvcd__d3 linear, const nsvcd__d3 angular, double times,
+                               nsvcd_velocity *velocity) {
+  nsvcd__thing thing;
+  memset(&thing, 0, sizeof thing);
+  thing.linear = nsvcd__d3_fma(times, linear, nsvcd__d3_load(velocity->linear));
+  thing.angular = nsvcd__d3_fma(times, angular, nsvcd__d3_load(velocity->angular));
+  nsvcd__tell_velocity(&thing, velocity);
 }
 
 // -------------------------------------------------------------------------------------- world/step
@@ -3135,9 +3449,8 @@ static int nsvcd__wake_near_driven(const nsvcd__crowd *crowd) {
   double within = 0;
   for (size_t k = 0; k < crowd->count; k++) {
     const nsvcd_slide_options *how = &crowd->movers[k].how;
-    const double usual =
-        NSVCD__USUAL_CLEARANCE * world->residents[crowd->movers[k].id].shape.reach;
-    const double clearance = how->clearance > 0 ? (double)how->clearance : usual;
+    const double reach = world->residents[crowd->movers[k].id].shape.reach;
+    const double clearance = nsvcd__kept_clearance(how, reach);
     const double margin = how->margin > 0 ? (double)how->margin : clearance;
     within = nsvcd__max(within, clearance + 2 * margin);
   }
@@ -3165,64 +3478,16 @@ static void nsvcd__grow_calm(const nsvcd__crowd *crowd, nsvcd_world_mover *m) {
   memset(&m->velocity, 0, sizeof m->velocity);
 }
 
-// ---- lifts
-
-// How fast a driven body takes a point along that is there now, metres a second; 0: it is not
-// driven.
-static nsvcd__d3 nsvcd__takes_along(const nsvcd__crowd *crowd, const nsvcd__resident *r,
-                                    nsvcd__d3 point) {
-  if (!r->is_driven) return nsvcd__d3_of(0, 0, 0);
-  const nsvcd__dpose from = nsvcd__dpose_of(&r->given.pose);
-  const nsvcd__d3 moved = nsvcd__moved_along(&from, &r->to, point);
-  return nsvcd__d3_over(moved, (double)crowd->seconds);
-}
-
-// The next body beneath a mover, as it was after its last slide, from contact *n on; or NULL.
-static const nsvcd__resident *nsvcd__next_beneath(const nsvcd__crowd *crowd,
-                                                  const nsvcd_world_mover *m, size_t *n) {
-  while (*n < m->answer.contact_count && *n < NSVCD_WORLD_CONTACTS) {
-    const nsvcd_world_contact *c = &m->answer.contacts[(*n)++];
-    const nsvcd__resident *r = nsvcd__resident_of(crowd->world, c->body);
-    if (r && nsvcd__d3_dot(nsvcd__d3_load(c->contact.normal), crowd->up) > 0.5) return r;
-  }
-  return NULL;
-}
-
-static nsvcd__d3 nsvcd__mover_centre(const nsvcd__crowd *crowd, const nsvcd_world_mover *m) {
-  const nsvcd__resident *r = &crowd->world->residents[m->id];
-  return nsvcd__pivot_of(&r->given.pose, r->shape.pivot);
-}
-
-// Finds who stands, by way of others, on what rises: they have to go first, and the highest before
-// all, or those beneath are caught. Going up, each mover knows how fast that beneath it rises.
-static void nsvcd__find_rising(const nsvcd__crowd *crowd) {
-  const nsvcd_world *world = crowd->world;
-  for (size_t k = 0; k < crowd->count; k++) {
-    nsvcd_world_mover *m = &crowd->movers[world->turns[k].mover];
-    const nsvcd__resident *r;
-    double rise = 0;
-    int is_direct = 0;
-    for (size_t n = 0; (r = nsvcd__next_beneath(crowd, m, &n)) != NULL;) {
-      const nsvcd__d3 goes = nsvcd__takes_along(crowd, r, nsvcd__mover_centre(crowd, m));
-      const double lifts =
-          r->is_driven ? nsvcd__d3_dot(goes, crowd->up) : fabs((double)r->rise);
-      is_direct |= r->is_driven && lifts > 0;
-      rise = nsvcd__max(rise, lifts);
-    }
-    // whoever stands on it directly waits for those above
-    world->residents[m->id].rise = (float)(is_direct ? -rise : rise);
-    if (rise > 0 && m->asleep) nsvcd__wake(m);
-  }
-}
-
 // ---- a frame
 
 // Gives a mover what gravity adds to its speed, less what brakes it, as seen from what it stands
 // on.
 static void nsvcd__pull_and_brake(const nsvcd__crowd *crowd, nsvcd_world_mover *m) {
+  const int is_carried = crowd->world->residents[m->id].carrier != NSVCD_NOBODY;
   const int is_braked = m->answer.contact_count > 0 && m->how.mass > 0 && m->how.friction > 0;
-  const int is_slow =
-      is_braked && nsvcd__mover_speed(crowd, m) < NSVCD__NEARLY_QUIET * crowd->quiet;
+  // a lift that speeds up would hold by brakes what friction does not
+  const int is_slow = is_braked && !is_carried &&
+                      nsvcd__mover_speed(crowd, m) < NSVCD__NEARLY_QUIET * crowd->quiet;
   const double quiet = is_slow ? NSVCD__BRAKES_QUIET : 0;
   const double speed = is_braked ? nsvcd__max(NSVCD__BRAKES_SPEED, quiet) : 0;
   const double spin = is_braked ? nsvcd__max(NSVCD__BRAKES_SPIN, quiet) : 0;
@@ -3242,29 +3507,31 @@ static void nsvcd__pull_and_brake(const nsvcd__crowd *crowd, nsvcd_world_mover *
   nsvcd__tell_velocity(&thing, &m->velocity);
 }
 
-// Has a mover go up at least as fast as what it stands on.
-static void nsvcd__raise(const nsvcd__crowd *crowd, const nsvcd__resident *r,
-                         nsvcd_velocity *velocity) {
-  const nsvcd__d3 linear = nsvcd__d3_load(velocity->linear);
-  const double lacks = nsvcd__max((double)r->rise - nsvcd__d3_dot(linear, crowd->up), 0);
-  nsvcd__f3_store(nsvcd__f3_round(nsvcd__d3_fma(lacks, crowd->up, linear)), velocity->linear);
-}
-
 static nsvcd_result nsvcd__step_mover(const nsvcd__crowd *crowd, nsvcd_world_mover *m,
                                       void *workspace, size_t size, nsvcd_step_answer *out) {
   nsvcd__resident *r = &crowd->world->residents[m->id];
   if (m->asleep || r->is_driven) return NSVCD_OK;
   const nsvcd_velocity was = m->velocity;
+  const int is_carried = r->carrier != NSVCD_NOBODY;
+  const nsvcd__d3 none = {0, 0, 0};
+  // a character's speed is its own already
+  const int is_thing = is_carried && m->how.mass > 0;
+  const nsvcd__d3 goes = is_carried ? r->goes : none;
+  const nsvcd__d3 turns = is_carried ? r->turns : none;
+  if (is_thing) nsvcd__add_carried(goes, turns, -1, &m->velocity);
   nsvcd__pull_and_brake(crowd, m);
-  if (r->rise > 0) nsvcd__raise(crowd, r, &m->velocity);
-  const nsvcd_velocity came = m->velocity;
+  nsvcd_velocity came = m->velocity;
   const nsvcd_result result = nsvcd_world_slide(crowd->world, m->id, &m->how, crowd->seconds,
                                                 workspace, size, &m->velocity, &m->answer);
   if (result) {
     m->velocity = was;
     return result;
   }
-  nsvcd__share_momentum(crowd, m, &came);
+  if (is_thing) nsvcd__add_carried(none, turns, 1, &came);
+  if (is_thing) nsvcd__add_carried(none, turns, 1, &m->velocity);
+  nsvcd__share_momentum(crowd, m, &came, goes);
+  r->slips = is_thing ? nsvcd__d3_load(m->velocity.linear) : none;
+  if (is_thing) nsvcd__add_carried(goes, none, 1, &m->velocity);
   out->awake++;
   out->caught += m->answer.caught != NSVCD_NOBODY;
   out->contacts += m->answer.contact_count;
@@ -3296,25 +3563,28 @@ NSVCDDEF nsvcd_result nsvcd_world_step(nsvcd_world *world, nsvcd_world_mover *mo
     if (was_woken || (m->asleep && nsvcd__is_disturbed(&crowd, m))) nsvcd__wake(m);
   }
   const int is_driven = nsvcd__wake_near_driven(&crowd);
-  for (size_t k = 0; k < count; k++) world->residents[movers[k].id].rise = 0;
-  if (is_driven) nsvcd__find_rising(&crowd);
-  for (size_t k = is_driven ? 0 : count; k < 2 * count; k++) {
-    const int goes_up = k < count;  // from the highest on
-    nsvcd_world_mover *m = &movers[world->turns[goes_up ? count - 1 - k : k - count].mover];
-    if ((world->residents[m->id].rise > 0) != goes_up) continue;
-    const nsvcd_result said = nsvcd__step_mover(&crowd, m, workspace, workspace_size, &out);
-    if (said && !result) {
-      result = said;
-      out.refused = m->id;
+  if (is_driven) nsvcd__carry_all(&crowd, workspace, workspace_size, &out);
+  // who is carried slides when all that is driven has arrived
+  for (int carried = 0; carried <= is_driven; carried++) {
+    for (size_t k = 0; k < count; k++) {
+      nsvcd_world_mover *m = &movers[world->turns[k].mover];
+      if ((world->residents[m->id].carrier != NSVCD_NOBODY) != carried) continue;
+      const nsvcd_result said = nsvcd__step_mover(&crowd, m, workspace, workspace_size, &out);
+      if (said && !result) {
+        result = said;
+        out.refused = m->id;
+      }
     }
+    const nsvcd_result arrives = nsvcd_world_arrive(world);
+    if (!result) result = arrives;
   }
   for (size_t k = 0; k < count; k++) {
     nsvcd__grow_calm(&crowd, &movers[k]);
     out.asleep += movers[k].asleep != 0;
   }
-  const nsvcd_result arrives = nsvcd_world_arrive(world);
+  if (is_driven) nsvcd__end_carrying(world);
   if (answer) *answer = out;
-  return result ? result : arrives;
+  return result;
 }
 
 // -------------------------------------------------------------------------------------- world/mass

@@ -58,6 +58,7 @@ extern "C" {
 #include "world/walk.h"      // characters: grounds, walls and steps
 #include "world/slide.h"     // a frame of a body
 #include "world/momentum.h"  // what bodies that meet give each other
+#include "world/carry.h"     // who goes along with lifts
 #include "world/step.h"      // a frame of all
 #include "world/mass.h"      // the mass of a mesh
 

@@ -896,6 +896,23 @@ for line in 'high free' 'low hit' 'within inside' 'notch free'; do
   awk -F '\t' -v id="${line% *}" -v kind="${line#* }" '$1 == id && $2 == "accepted" && $3 == kind && $4 > 5 && NF == 5 { found++ }
     END { exit found != 1 }' "$dir/out" || fail "verify of $line says: $(cat "$dir/out")"
 done
+# The claims of what is accepted: by Python's hashlib, from the bytes that nsvcd_verify_claim.h describes; of others nothing.
+expect 0 '' build/verify "$dir/proofs.txt" "$dir/certs" --claims --only high,low
+python3 - "$dir/out" examples/assets <<'END' || fail "claims: $(cat "$dir/out")"
+import hashlib, struct, sys
+def mesh(name):
+    rows = [line.split() for line in open(f"{sys.argv[2]}/{name}.obj")]
+    corners = [float(x) for row in rows if row[:1] == ["v"] for x in row[1:4]]
+    faces = [int(x.split("/")[0]) - 1 for row in rows if row[:1] == ["f"] for x in row[1:]]
+    return hashlib.sha256(b"nsvcd mesh 1" + struct.pack(f"<II{len(corners)}f{len(faces)}I", len(corners) // 3, len(faces) // 3,
+                                                        *corners, *faces)).digest()
+def claim(end):
+    return hashlib.sha256(b"nsvcd claim 1" + struct.pack("<f", 0) +
+                          mesh("mug") + struct.pack("<fBIB14f", 1, 1, 2, 0, 0, -0.4, 0.3, 0, 0, 0, 1, *end) +
+                          mesh("dish_rack") + struct.pack("<fBIB7f", 1, 1, 1, 0, 0, 0, 0, 0, 0, 0, 1)).hexdigest()
+told = {line.split("\t")[0]: line.rstrip("\n").split("\t")[5] for line in open(sys.argv[1])}
+sys.exit(told != {"high": claim((0, 0.4, 0.3, 0, 0, 0.6, 0.8)), "low": claim((0, 0, 0, 0, 0, 0, 1))})
+END
 expect 1 '' build/verify "$dir/proofs.txt" "$dir/certs" --clearance 0.001
 test "$(grep -c '	refused	it is about another motion, scale or clearance, at byte 5	' "$dir/out")" = 4 || fail "another clearance: $(cat "$dir/out")"
 sed 's/0 -0.4 0.3 0/0 -0.4 0.31 0/' "$dir/proofs.txt" >"$dir/moved.txt"

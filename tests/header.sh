@@ -29,7 +29,7 @@ cat >"$dir/twice.c" <<END
 #include "$here/extras/neuralsvcd_world.h"
 #endif
 END
-printf '#include "%s/examples/verify/nsvcd_verify_robot.h"\n' "$here" "$here" >"$dir/checker.c"
+printf '#include "%s/examples/verify/nsvcd_verify_claim.h"\n' "$here" "$here" >"$dir/checker.c"
 cp "$dir/checker.c" "$dir/checker.cc"
 printf '#include "%s/extras/neuralsvcd_certify.h"\n#include "%s/extras/neuralsvcd_robot.h"\n#include "%s/extras/neuralsvcd_world.h"\n' "$here" "$here" "$here" >"$dir/user.c"  # declarations only, in a second file
 cp "$dir/twice.c" "$dir/twice.cc"
@@ -148,7 +148,7 @@ fi
 # The checker of certificates is not compiled where NaN could pass or sums are reordered; where that has no macro, or none
 # any more, it says so as it runs.
 cat >"$dir/unfit.c" <<END
-#include "$here/examples/verify/nsvcd_verify_robot.h"
+#include "$here/examples/verify/nsvcd_verify_claim.h"
 #include <stdio.h>
 int main(void) {
   static const float corners[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};

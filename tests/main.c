@@ -29,6 +29,7 @@ void test_postures(void);
 void test_ranges(void);
 void test_certificate(void);
 void test_checker(void);
+void test_claims(void);
 void test_math(void);
 void test_vectors(void);
 void test_memory(void);
@@ -146,6 +147,7 @@ static const test_file files[] = {
     OF(ranges),
     OF(certificate),
     OF(checker),
+    OF(claims),
     OF(winding_number),
     OF(decoder),
     OF(query),

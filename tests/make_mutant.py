@@ -20,7 +20,7 @@ def mutant_of(line: str, rooms: dict[str, str], headers: dict[str, str], checker
     new = new.rstrip("|") if name != "none" and new.endswith("|") else new
     if not old:
         return {}
-    sources = checker if name.startswith(("verify:", "checker:", "fits:", "plans:")) else rooms
+    sources = checker if name.startswith(("verify:", "checker:", "claims:", "fits:", "plans:")) else rooms
     pattern = re.compile(r"\s+".join(map(re.escape, old.split())))
     found = sum(len(pattern.findall(text)) for text in sources.values())
     if found != 1:

@@ -1,8 +1,7 @@
 #!/bin/sh
 # Are the tests of the proof worth anything? Each mutant is the library with one mistake in it; tests/test_proof.c has to
 # fail on it, or, where its name begins with `level:`, `asks:`, `long:`, `exact:`, `floor:`, `solids:`, `round:`,
-# `robot:`, `looks:`, `shapes:`, `contacts:`, `world:`, `slide:`, `route_looks:`, `many_joints:`, `postures:`, `reach:`, `ranges:`, `allowances:`, `mimics:`, `merge:` or `cones:`, tests/test_level.c and so on; of `verify:` and `checker:` the mistake is in the checker of
-# `robot:`, `looks:`, `contacts:`, `world:`, `slide:`, `step:`, `route_looks:`, `many_joints:`, `postures:`, `reach:`, `ranges:`, `allowances:`, `mimics:`, `merge:` or `cones:`, tests/test_level.c and so on; of `verify:` and `checker:` the mistake is in the checker of
+# `robot:`, `looks:`, `shapes:`, `contacts:`, `world:`, `slide:`, `step:`, `route_looks:`, `many_joints:`, `postures:`, `reach:`, `ranges:`, `allowances:`, `mimics:`, `merge:` or `cones:`, tests/test_level.c and so on; of `verify:` and `checker:` the mistake is in the checker of
 # certificates, examples/verify, and tests/test_certificate.c or tests/test_checker.c has to fail, of `fits:`
 # tests/test_fits.c, of `plans:` tests/forge.py, which needs build/svcd. Prints a line for each, and exits with 1 if one survives. An argument runs only the mutants whose
 # name contains it. Some 20 seconds each; PART=0 OF=16 WORK=folder: every 16th of them, in a folder of its own.
@@ -13,8 +12,7 @@ cd "$(dirname "$0")/.." || exit 1
 work=${WORK:-build/mutants}
 mkdir -p $work/tests/bench $work/examples/scenery $work/examples/verify
 cp weights.h $work/
-cp tests/test_proof.c tests/test_level.c tests/test_asks.c tests/test_long.c tests/test_exact.c tests/test_floor.c tests/test_solids.c tests/test_round.c tests/test_robot.c tests/test_looks.c tests/test_shapes.c tests/test_contacts.c tests/test_world.c tests/test_slide.c tests/test_route_looks.c tests/test_many_joints.c tests/test_postures.c tests/test_reach.c tests/test_ranges.c tests/test_allowances.c tests/test_mimics.c tests/test_merge.c tests/test_cones.c tests/test_certificate.c tests/test_checker.c tests/test_fits.c tests/*.h $work/tests/
-cp tests/test_proof.c tests/test_level.c tests/test_asks.c tests/test_long.c tests/test_exact.c tests/test_floor.c tests/test_solids.c tests/test_round.c tests/test_robot.c tests/test_looks.c tests/test_contacts.c tests/test_world.c tests/test_slide.c tests/test_step.c tests/test_route_looks.c tests/test_many_joints.c tests/test_postures.c tests/test_reach.c tests/test_ranges.c tests/test_allowances.c tests/test_mimics.c tests/test_merge.c tests/test_cones.c tests/test_certificate.c tests/test_checker.c tests/test_fits.c tests/*.h $work/tests/
+cp tests/test_proof.c tests/test_level.c tests/test_asks.c tests/test_long.c tests/test_exact.c tests/test_floor.c tests/test_solids.c tests/test_round.c tests/test_robot.c tests/test_looks.c tests/test_shapes.c tests/test_contacts.c tests/test_world.c tests/test_slide.c tests/test_step.c tests/test_route_looks.c tests/test_many_joints.c tests/test_postures.c tests/test_reach.c tests/test_ranges.c tests/test_allowances.c tests/test_mimics.c tests/test_merge.c tests/test_cones.c tests/test_certificate.c tests/test_checker.c tests/test_claims.c tests/test_fits.c tests/*.h $work/tests/
 cp tests/bench/*.h $work/tests/bench/
 cp examples/scenery/*.h $work/examples/scenery/
 cp examples/verify/verify.c $work/examples/verify/
@@ -49,6 +47,13 @@ groups' spheres over the first half|for (size_t k = 0; k < count + !count; k++) 
 held plane without slack|g->margins[j] * length + highest;|highest;
 heights over another plane|above->plane != memo->plane \|\| above->key != key|above->key != key
 pair of coarse copies as if they were the meshes|pair.rounding + nsvcd__off_meshes(p) + moved;|pair.rounding + moved;
+level: slabs on the way without slack|a->fixed_off = nsvcd__v_off(a, a->fixed.normal);|a->fixed_off = nsvcd__v_set(0);
+slabs on the way at the start only|if (!a->may_bend) return nsvcd__v_separate(a, a->fixed.normal, start, start|if (1) return nsvcd__v_separate(a, a->fixed.normal, start, start
+what turns does not bend|return over->bend > 0 \|\| over->origin_bend > 0;|return over->origin_bend > 0;
+rotations that stay|return arc->turn > 0 \|\| arc->fixed_moves;|return arc->fixed_moves;
+level: what is ahead is met when it is nearest|nsvcd__v_sub(nearest, nsvcd__v_mul(sum, per_length))|nearest
+level: the first chunk of spheres alone|first < slots; first += NSVCD__GROUP) {\n    size_t level = top;|first < NSVCD__GROUP; first += NSVCD__GROUP) {\n    size_t level = top;
+small meshes enclose nothing|outer->open \|\| outer->triangles < 2|outer->open \|\| outer->triangles < 13
 round: tangents from the other side|const double fall = -nsvcd__d3_dot(p->separating, moved);|const double fall = nsvcd__d3_dot(p->separating, moved);
 round: tangents a little too far|const double until = fall > 0 ? nsvcd__min(end, at + room / fall) : end;|const double until = fall > 0 ? nsvcd__min(end, at + above / fall) : end;
 doubts forgotten|    nsvcd__keep_unresolved(p, pair, u0, u1);\n    return NSVCD__DONE;|    return NSVCD__DONE;
@@ -82,7 +87,7 @@ rays without rounding|const float rounding = NSVCD__ROUNDING * extent * f->body-
 rays past half the groups|while (!sum.unclear \&\& nsvcd__traversal_next(\&groups, \&g)) {|while (!sum.unclear \&\& nsvcd__traversal_next(\&groups, \&g)) {\n    if (g % 2) continue;
 block's boxes at the start only|low = nsvcd__v3_min(low, corner);\n      high = nsvcd__v3_max(high, corner);|if (k >= 3) continue;\n      low = nsvcd__v3_min(low, corner);\n      high = nsvcd__v3_max(high, corner);
 last triangle skipped|size_t patience) {\n  nsvcd__proof *p = \&w->p;\n  const size_t moving_end = p->moving.first_triangle[i + 1];|size_t patience) {\n  nsvcd__proof *p = \&w->p;\n  const size_t moving_end = p->moving.first_triangle[i + 1] - 1;
-containment one way|if (outer->open) return 0;\n  const int is_one|if (outer->open + (e->inner != \&w->p.moving)) return 0;\n  const int is_one
+containment one way|if (outer->open \|\| outer->triangles < 2) return 0;|if (outer->open + (e->inner != \&w->p.moving)) return 0;
 long: an interval passed over|if (is_resolved) m->from = until;|if (is_resolved) m->from = until;\n  if (is_resolved \&\& arcs == 1 \&\& until < m->ticks) m->from = nsvcd__next_keyframe(m, until);
 long: a try in vain is believed|is_resolved \|\| !is_try, p->work - before|1, p->work - before
 long: gaps by the first pose|part.count = nsvcd__pose_before(track, until - 1) + 2 - first;|part.count = 1;
@@ -435,6 +440,10 @@ checker: two bases|if (!why \&\& (a->clock != b->clock \|\| a->base != b->base))
 checker: deviations that nobody wrote|memset(at, 0, sizeof *at);|
 checker: a normal of 0|if (!(gap > least \&\& last > least \&\& gap < VERIFY__BEYOND)) return 0;|if (!(gap >= least \&\& last >= least \&\& gap < VERIFY__BEYOND)) return 0;
 checker: corners that there are not|\|\| of->mesh->part[out->a] == NSVCD_VERIFY_NONE)|)
+claims: of any clearance|verify__tell(\&sha, \&clearance, 1, 4);|
+claims: of joints anywhere|verify__tell(sha, joint->origin, 7, 4);|
+claims: of poses at any time|if (timed) verify__tell(sha, p->times, p->count, 4);|
+claims: of a mesh without its triangles|verify__tell(\&sha, m->indices, 3 * m->triangles, 4);|
 contacts: inner edges are sides|    if (same_moving \&\& nsvcd__goes_on(at_it.pair.fixed, points->on_b, normal, same)) return 1;|
 contacts: edges of the moving body are sides|    if (same_fixed \&\& nsvcd__goes_on(at_it.posed, points->on_a, back, same)) return 1;|
 contacts: ghosts among supports|if ((number \& 2) \&\& nsvcd__goes_on_beside(|if (0 \&\& nsvcd__goes_on_beside(
@@ -544,7 +553,7 @@ world: a driven body at rest|mover->count = q->at_once ? 1 : 2;|mover->count = 1
 world: groups pass one way|!(groups \& other->passes) \&\& !(other->groups \& passes)|!(groups \& other->passes)
 world: pairs of what is fixed|if (n <= id \|\| (a->given.fixed \&\& b->given.fixed)) continue;|if (n <= id) continue;
 world: ids are lost|world->free = (uint32_t)id;|
-world: a box without the clearance|(double)q->question.clearance + (double)q->question.tolerance;|0;
+world: a box without the clearance|(double)q->question.clearance + (double)q->question.tolerance +|0 * (double)q->question.tolerance +
 world: the last time|t->time.low = fminf(t->time.low, answer->time.low);|t->time.low = answer->time.low;
 world: safe of the first body|if (t->safe_by \&\& answer->safe.time >= t->safe_time) return;|if (t->safe_by) return;
 world: push-outs in sum|depths[k] - nsvcd__d3_dot(out, normals[k]);|depths[k];
@@ -555,7 +564,7 @@ world: changes within changes|if (world->changes \& 1) return 0;|
 world: a list as it comes|for (; at > 0 \&\& ids[at - 1] > id; at--)|for (; at > most;)
 slide: driven bodies from their start|s->ask.since = 1 - s->left;\n  s->ask.at_once = at_once;|s->ask.since = 0;\n  s->ask.at_once = at_once;
 slide: half the clearance|s->ask.question.clearance = (float)s->clearance;|s->ask.question.clearance = 0.5f * (float)s->clearance;
-slide: driven bodies without a speed|h->speed = nsvcd__driven_speed(s, s->contacts[k].body, on_other);|
+slide: driven bodies without a speed|const nsvcd__d3 driven = nsvcd__driven_speed(s, s->contacts[k].body, on_other);|const nsvcd__d3 driven = {0 * on_other.x, 0, 0};
 slide: nobody is caught|if (free_until < 1) out.caught = s.met;|
 slide: no way out|return nsvcd__push_off(s) \|\| gone > 0;|return gone > 0;
 slide: few rounds before doors|nsvcd__met_driven(\&s) ? 4 * rounds : rounds|rounds
@@ -572,8 +581,22 @@ slide: stays at the clearance|left[k].least = NSVCD__LEAVES * nsvcd__max(holds[k
 slide: no way down|if (stood \&\& !s.ground \&\& given->step > 0 \&\& rises <= 0) nsvcd__step_down(\&s);|
 slide: a climb is no way|s->pace *= 1 - gone;|
 slide: nobody rides|s->ridden = nsvcd__driven_speed(s, s->ground->body, nsvcd__pivot_at(s));|
-step: who rises waits|if ((world->residents[m->id].rise > 0) != goes_up) continue;|if (goes_up) continue;
-step: who rises is not raised|if (r->rise > 0) nsvcd__raise(|if (0) nsvcd__raise(
+slide: no edge is one of a step|return gone >= 1 \&\& s->ground;|return 0;
+slide: edges of what is too high|return gone >= 1 \&\& s->ground;|return s->ground != NULL;
+slide: edges of what is too steep|return gone >= 1 \&\& s->ground;|return gone >= 1;
+slide: edges stop|h->normal = s->up;|(void)0;
+slide: flies off kerbs|if (stood) nsvcd__stop_climbing(\&s);|
+slide: jumps are eaten|if (s->jumps) return;|
+slide: kerbs eat jumps|if (!(s->given->step > 0) \|\| s->jumps) return 0;|if (!(s->given->step > 0)) return 0;
+slide: edges at rest on trains|nsvcd__climb(s);\n    nsvcd__ride(s);|nsvcd__climb(s);
+step: going along is no way|is_free = nsvcd__ask_about(\&q, id, \&answer) \&\& answer.verdict == NSVCD_FREE;|is_free = 1;
+step: known whatever moved|if (r->proven >= moved \|\| o->proven >= moved) continue;|if (r->proven \|\| o->proven) continue;
+step: a lift passes through|if (nsvcd__ask_about(\&q, id, \&answer) \&\& answer.verdict != NSVCD_FREE) found = id;|(void)0;
+step: who is in the way stays|if (may_join) o->joins = r->carrier;|
+step: as fast as the world sees it|if (is_thing) nsvcd__add_carried(goes, turns, -1, \&m->velocity);|
+step: those carried see no slip|if (!r->carrier) return nsvcd__d3_of(0, 0, 0);|return nsvcd__d3_of(0, 0, 0);
+step: brakes hold what is carried|is_braked \&\& !is_carried \&\&|is_braked \&\&
+world: boxes in a frame without the way|nsvcd__boxes_meet_in(\&a->poses[0], \&q->shape, a->poses, a->count, q->apart,|nsvcd__boxes_meet_in(\&a->poses[0], \&q->shape, a->poses, 1, q->apart,
 step: movers of the array's order|return a.height < b.height;|return a.mover < b.mover;
 step: a mover twice|if (!r \|\| r->mover != k \|\| r->given.fixed)|if (!r \|\| r->given.fixed)
 step: what is fixed moves|r->mover != k \|\| r->given.fixed)|r->mover != k)
@@ -631,6 +654,7 @@ while IFS= read -r line; do
     cones:*) file=test_cones.c ;;
     verify:*) file=test_certificate.c ;;
     checker:*) file=test_checker.c ;;
+    claims:*) file=test_claims.c ;;
     fits:*) file=test_fits.c ;;
     plans:*) file=forge.py ;;
   esac

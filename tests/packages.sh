@@ -35,7 +35,7 @@ head -1 "$prefix/share/man/man1/svcd.1" | grep -q '^\.TH' || fail "svcd.1 is no 
 # The checker's headers, of which a program needs no other; what every way of installing brings.
 cat >"$dir/checks.c" <<'END'
 #include <nsvcd_verify.h>
-#include <nsvcd_verify_robot.h>
+#include <nsvcd_verify_claim.h>
 int main(void) { return sizeof(nsvcd_verify_report) == 0; }
 END
 is_whole() {  # prefix, title

@@ -151,6 +151,31 @@ static void proof_separate_groups(nsvcd__solver *w, nsvcd__search *q) {
     }
   }
 }
+// The same of one group of the moving body, and 16 groups or 16 patches of the fixed one.
+static uint32_t proof_slabs_on_way(nsvcd__solver *w, nsvcd__way *way, nsvcd__spheres spheres,
+                                   size_t level, size_t first, uint32_t met) {
+  const nsvcd_body *moving = w->p.moving.body;
+  const nsvcd_body *fixed = w->p.fixed.body;
+  const size_t each = level ? NSVCD__GROUP : 1;  // patches
+  const float *slabs = level ? w->p.fixed.group_slabs : w->p.fixed.slabs;
+  const size_t stride = level ? nsvcd__group_slots(fixed->padded) : fixed->padded;
+  const nsvcd__slab own =
+      nsvcd__slab_at(w->p.moving.group_slabs, nsvcd__group_slots(moving->padded), 0);
+  const uint32_t left = nsvcd__slabs_on_way(w, way, spheres, level, first, met);
+  heard.start = proof_time(&w->p, way->start);
+  heard.end = proof_time(&w->p, way->start + way->length);
+  for (uint32_t apart = met & ~left; apart; apart &= apart - 1) {
+    const size_t n = first + nsvcd__low_bit(apart);
+    const nsvcd__slab other = nsvcd__slab_at(slabs, stride, n);
+    for (size_t i = 0; i < moving->patches; i++) {
+      for (size_t j = each * n; j < each * (n + 1) && j < fixed->patches; j++)
+        proof_heard_slabs(HEARD_GROUPS, &w->intervals[way->segment], i, j, own.normal,
+                          other.normal);
+    }
+  }
+  return left;
+}
+#define nsvcd__slabs_on_way proof_slabs_on_way
 #define nsvcd__slabs_meet proof_slabs_meet
 #define nsvcd__separate_groups(p, q) proof_separate_groups(proof_solver(p), q)
 

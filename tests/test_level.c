@@ -7,6 +7,7 @@
 #define NEURALSVCD_IMPLEMENTATION
 #include "../src/body/scale.h"
 #include "../src/body/encode.h"
+#include "../src/body/shapes.h"
 #include "../src/plan/plan.h"
 
 #include <sys/mman.h>
@@ -751,10 +752,179 @@ static void level_winding_numbers_are_those_of_the_patches(void) {
   }
 }
 
+// ---- casts: small bodies, which are searched in the order in which they come to things
+
+enum { CAST_RAY, CAST_SPHERE, CAST_CAPSULE, CAST_BOX, CAST_MUG, CASTS };
+
+// A body, and the oracle's mesh of its skeleton.
+typedef struct level_caster {
+  const nsvcd_body *body;
+  oracle_mesh skeleton;
+  double round;
+} level_caster;
+
+static level_caster level_caster_make(int kind) {
+  static const float ends[2][3] = {{0, 0.1f, -0.3f}, {0, 0, 0.3f}};
+  static const float half[3] = {0.1f, 0.15f, 0.05f};
+  static const uint32_t line[3] = {0, 1, 1};
+  static const double round[CASTS] = {5e-4, 0.05, 0.1, 0, 0};
+  const size_t count = kind == CAST_CAPSULE ? 2 : 1;
+  double points[6] = {0};
+  level_caster out;
+  memset(&out, 0, sizeof out);
+  out.round = round[kind];
+  const float radius = (float)out.round;
+  for (size_t i = 0; i < 3 * count && kind == CAST_CAPSULE; i++)
+    points[i] = (double)ends[i / 3][i % 3];
+  if (kind < CAST_CAPSULE) CHECK_EQ(nsvcd_encode_sphere(radius, NULL, &out.body), NSVCD_OK);
+  if (kind == CAST_CAPSULE)
+    CHECK_EQ(nsvcd_encode_capsule(ends[0], ends[1], radius, NULL, &out.body), NSVCD_OK);
+  if (kind >= CAST_BOX) {
+    shapes_mesh shape;
+    memset(&shape, 0, sizeof shape);
+    if (kind == CAST_BOX) shapes_box(&shape, 0.2, 0.3, 0.1, 1);
+    if (kind == CAST_MUG) shapes_mug(&shape, 0.1, 0.2, 0.01, 24);
+    nsvcd_mesh mesh = mesh_of(&shape);
+    CHECK_EQ(oracle_mesh_init(&out.skeleton, shape.positions, shape.vertices, shape.indices,
+                              shape.triangles, 1),
+             1);
+    if (kind == CAST_BOX) CHECK_EQ(nsvcd_encode_box(half, 0, NULL, &out.body), NSVCD_OK);
+    if (kind == CAST_MUG)
+      CHECK_EQ(nsvcd_encode(&mesh, NULL, NULL, NULL, 0, &out.body), NSVCD_OK);
+    nsvcd_mesh_free(&mesh, NULL);
+    shapes_free(&shape);
+  } else {
+    const uint32_t dot[3] = {0, 0, 0};
+    CHECK_EQ(oracle_mesh_init(&out.skeleton, points, count, count > 1 ? line : dot, 1, 1), 1);
+  }
+  return out;
+}
+
+// How near the caster comes to the level between two times, at some of them.
+static double level_cast_gap(const level_caster *caster, const oracle_pose *way, double from,
+                             double to, int samples) {
+  const oracle_pose origin = {{0, 0, 0}, {0, 0, 0, 1}};
+  double least = HUGE_VAL;
+  for (int k = 0; k <= samples; k++) {
+    const double t = from + (to - from) * k / (samples ? samples : 1);
+    const oracle_pose at = oracle_pose_at(way, 2, t);
+    oracle_search s;
+    oracle_search_begin(&s, &caster->skeleton, &level_shared()->level.oracle);
+    least = fmin(least, oracle_search_run(&s, &at, &origin, HUGE_VAL));
+  }
+  return least - caster->round;
+}
+
+// When a corner of the skeleton's first triangle, which goes straight, first passes through a triangle
+// of the level: beyond 1, never. All triangles are tried.
+static double level_first_crossing(const level_caster *caster, const oracle_pose *way) {
+  const oracle_mesh *level = &level_shared()->level.oracle;
+  double first = HUGE_VAL;
+  for (int k = 0; k < 2; k++) {
+    double from[3], to[3], travel[3];
+    oracle_transform(&way[0], caster->skeleton.triangles[0].v[k], from);
+    oracle_transform(&way[1], caster->skeleton.triangles[0].v[k], to);
+    oracle_sub(to, from, travel);
+    for (size_t i = 0; i < level->triangle_count; i++) {
+      const oracle_triangle *t = &level->triangles[i];
+      double d[3], ahead[3], at[3];
+      oracle_sub(from, t->v[0], d);
+      oracle_sub(to, t->v[0], ahead);
+      const double before = oracle_dot(t->normal, d);
+      const double after = oracle_dot(t->normal, ahead);
+      if (before * after >= 0) continue;
+      const double u = before / (before - after);
+      if (u >= first) continue;
+      for (int j = 0; j < 3; j++) at[j] = from[j] + u * travel[j];
+      if (oracle_projects_inside(t, at)) first = u;
+    }
+  }
+  return first;
+}
+
+// A way, straight or with a turn, from near the ground, perhaps from a contact or of no length.
+static void level_any_cast(shapes_rng *rng, oracle_pose *way) {
+  const double length = shapes_pick(rng, 10) ? pow(10, shapes_uniform(rng, -3, 1)) : 0;
+  double along[3], axis[3], turn[4];
+  shapes_quaternion(rng, way[0].rotation);
+  shapes_direction(rng, along);
+  shapes_direction(rng, axis);
+  oracle_axis_angle(axis, shapes_pick(rng, 3) ? 0 : shapes_uniform(rng, 0, 0.5), turn);
+  oracle_quat_mul(turn, way[0].rotation, way[1].rotation);
+  for (int k = 0; k < 2; k++) way[0].position[k] = shapes_uniform(rng, -9, 9);
+  way[0].position[2] = level_height(way[0].position[0], way[0].position[1]);
+  way[0].position[2] += shapes_uniform(rng, -0.1, 1);
+  for (int k = 0; k < 3; k++) way[1].position[k] = way[0].position[k] + length * along[k];
+}
+
+static void level_casts_are_those_of_the_oracle(void) {
+  shapes_rng rng = {431};
+  size_t hits = 0;
+  size_t frees = 0;
+  size_t undecided = 0;
+  // the level, and the same in 25 groups without levels above them, of patches of several blocks
+  const nsvcd_encode_options few = level_options(400);
+  const level_solid *level = &level_shared()->level;
+  const nsvcd_body *bodies[2] = {level->body, NULL};
+  CHECK_EQ(nsvcd_encode(&level->mesh, &few, NULL, NULL, 0, &bodies[1]), NSVCD_OK);
+  for (int kind = 0; kind < CASTS; kind++) {
+    level_caster caster = level_caster_make(kind);
+    for (size_t trial = 0; trial < check_many(700); trial++) {
+      const float to = (float)pow(10, shapes_uniform(&rng, -4, -2));
+      oracle_pose way[2];
+      nsvcd_pose path[2];
+      level_any_cast(&rng, way);
+      for (int k = 0; k < 2; k++) {
+        path[k] = pose_rounded(&way[k]);
+        way[k] = pose_widened(&path[k]);
+      }
+      nsvcd_question q = question_of(caster.body, path, 2, bodies[trial % 2], NULL, NULL);
+      q.ask = shapes_pick(&rng, 3) ? NSVCD_ASK_FIRST : NSVCD_ASK_HIT;
+      q.to = q.ask == NSVCD_ASK_FIRST ? to : 0;
+      q.clearance = shapes_pick(&rng, 3) ? 0 : (float)pow(10, shapes_uniform(&rng, -4, -1));
+      q.surfaces = shapes_pick(&rng, 3) == 0;
+      const nsvcd_answer a = level_ask(&q);
+      const double clearance = (double)q.clearance;
+      hits += a.verdict == NSVCD_HIT;
+      frees += a.verdict == NSVCD_FREE;
+      undecided += a.verdict == NSVCD_UNDECIDED;
+      // what is proven free is beyond the clearance, to the rounding of the poses
+      double travel[3];
+      oracle_sub(way[1].position, way[0].position, travel);
+      const double length = oracle_length(travel);
+      const double low = (double)a.time.low;
+      if (a.verdict == NSVCD_FREE || low > 0) {
+        CHECK_GE(level_cast_gap(&caster, way, 0, low, 12), clearance - 1e-5);
+        const double since = length > 0 ? fmax(0, low - 0.02 / length) : 0;
+        // surfaces that meet are at distance 0
+        CHECK_GE(level_cast_gap(&caster, way, since, low * (1 - 1e-6), 4),
+                 caster.round > 0 ? -1e-7 : 1e-12);
+      }
+      const int is_straight = !memcmp(path[0].rotation, path[1].rotation, sizeof path[0].rotation);
+      if (is_straight && (a.verdict == NSVCD_FREE || a.time.low > 0))
+        CHECK_LE((double)a.time.low, level_first_crossing(&caster, way) + 1e-5);
+      if (a.verdict != NSVCD_HIT || a.inside) continue;
+      const double at = (double)a.time.high;
+      CHECK_LE(level_cast_gap(&caster, way, at, at, 0), clearance + 1e-5);
+      if (q.ask != NSVCD_ASK_FIRST || a.why) continue;
+      // a body that turns moves more
+      if (is_straight) CHECK_LE((at - low) * length, (double)to * 1.001 + 2e-5);
+    }
+    oracle_mesh_free(&caster.skeleton);
+    nsvcd_body_free(caster.body, NULL);
+  }
+  nsvcd_body_free(bodies[1], NULL);
+  printf("  %zu hit, %zu free, %zu undecided\n", hits, frees, undecided);
+  CHECK_GE(hits, 500);
+  CHECK_GE(frees, 500);
+  CHECK_LE(undecided, 30);
+}
+
 void test_level(void) {
   RUN(level_mapped_from_a_file);
   RUN(level_verdicts_are_right);
   RUN(level_that_moves);
+  RUN(level_casts_are_those_of_the_oracle);
   RUN(level_contacts_are_those_of_the_piece);
   RUN(level_by_the_network);
   RUN(level_containment_by_the_network);

@@ -1051,9 +1051,8 @@ static nsvcd__interval proof_any_arc(shapes_rng *rng, nsvcd__motion *motion, flo
   static nsvcd__solver solver;
   nsvcd__proof *proof = &solver.p;
   double u;
-  proof->arcs.motion = motion;
+  nsvcd__arcs_begin(&proof->arcs, motion);
   proof->given.lengths = lengths;
-  proof->arcs.arc.ticks = 0;
   const uint32_t first =
       nsvcd__arc_of(motion, shapes_uniform(rng, 0, 1) * (double)motion->ticks, &u);
   const double length = pow(2, -shapes_pick(rng, 12));

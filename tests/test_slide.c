@@ -530,6 +530,70 @@ static void does_not_step_below_a_low_ceiling(void) {
   stage_end(&s);
 }
 
+// A character of 1.2 m with round feet of 30 cm, whose origin is at its sole, by its facets.
+static thing thing_pill(void) {
+  enum { ROWS = 18 };
+  double profile[2 * ROWS + 2][2];
+  shapes_mesh shape;
+  memset(&shape, 0, sizeof shape);
+  for (int k = 0; k <= ROWS; k++) {
+    const double angle = 1.570796326794897 * k / ROWS;
+    const double across = k ? 0.3 * sin(angle) : 0;
+    profile[k][0] = profile[2 * ROWS + 1 - k][0] = across;
+    profile[k][1] = 0.3 - 0.3 * cos(angle);
+    profile[2 * ROWS + 1 - k][1] = 0.9 + 0.3 * cos(angle);
+  }
+  shapes_lathe(&shape, profile, 2 * ROWS + 2, 36, 0);
+  return thing_of(&shape);
+}
+// Walks and runs on round feet over kerbs up to its step of 25 cm and back, at its pace, and is never
+// thrown up. Not onto one of 28 cm, which its feet could roll over, nor up a riser of 10 cm with a
+// ramp of 40 degrees behind it, which is too steep, though a step farther on there is room.
+static void round_feet_climb_kerbs(void) {
+  static const double heights[5] = {0.1, 0.2, 0.245, 0.28, 0.1};
+  for (int run = 0; run < 10; run++) {
+    const int is_ramp = run / 2 == 4;
+    const int is_climbed = run / 2 < 3;
+    const float speed = run % 2 ? 4 : 1;
+    const int frames = run % 2 ? 30 : 120;
+    const double high = heights[run / 2];
+    const double at = 1 - sqrt(0.09 - (0.3 - high) * (0.3 - high));
+    const double by = 0.6981317008;
+    stage s = stage_begin();
+    add_floor(&s);
+    const nsvcd_pose ramp =
+        turned(1 + 3 * cos(by) + 0.5 * sin(by), 0, high + 3 * sin(by) - 0.5 * cos(by), 1, -by);
+    const nsvcd_pose kerb = pose_of(2, 0, 0.5 * high);
+    stage_add(&s, is_ramp ? thing_box(6, 8, 1) : thing_box(2, 8, high), is_ramp ? ramp : kerb, 1);
+    const size_t id = stage_add(&s, thing_pill(), pose_of(0, 0, 0.002), 0);
+    actor a = character_of(&s, id, is_ramp ? 0.5f : 0.25f);
+    if (is_ramp) a.options.slope = 0.8f;
+    int stops = 0;
+    for (int f = 0; f < 2 * frames; f++) {
+      const double before = place(&a, 0);
+      frame(&a, f < frames ? speed : -speed, 0);
+      CHECK_LE(fabs(place(&a, 0) - before), (double)(speed * FRAME) + 1e-3);
+      CHECK_LE(place(&a, 2), (is_climbed ? high : 0) + 0.004);
+      CHECK_LE(a.velocity.linear[2], 1e-6f);
+      stops += is_climbed && fabs((double)a.velocity.linear[0]) < 0.9 * (double)speed;
+      if (f + 1 != frames) continue;
+      CHECK_NEAR(place(&a, 0), is_climbed ? 2 : at, 0.01);
+      CHECK_NEAR(place(&a, 2), (is_climbed ? high : 0) + REST, 1e-3);
+    }
+    CHECK_NEAR(place(&a, 0), is_climbed ? 0 : at - 2, 0.02);
+    CHECK_NEAR(place(&a, 2), REST, 1e-3);
+    keeps_clear(&a);
+    CHECK_LE(stops, 1);
+    // it jumps, walking into the kerb
+    const nsvcd_pose before_kerb = pose_of(at - 0.002, 0, REST);
+    CHECK_EQ(nsvcd_world_move(s.world, id, &before_kerb), NSVCD_OK);
+    a.velocity.linear[2] = 3;
+    for (int f = 0; f < 18; f++) frame(&a, 1, 0);
+    CHECK_NEAR(place(&a, 2), 0.45, 0.03);
+    stage_end(&s);
+  }
+}
+
 static void walks_on_an_elevator(void) {
   stage s = stage_begin();
   const size_t lift = add_floor(&s);
@@ -821,6 +885,7 @@ void test_slide(void) {
   RUN(walks_on_slopes);
   RUN(does_not_rise_along_a_steep_slope);
   RUN(does_not_step_below_a_low_ceiling);
+  RUN(round_feet_climb_kerbs);
   RUN(walks_on_an_elevator);
   RUN(climbs_on_a_train);
   RUN(between_two_movers);

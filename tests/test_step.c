@@ -77,29 +77,215 @@ static void seven_stacks_of_five_stand(void) {
   stage_end(&s);
 }
 
-// A stack goes up with a lift, at 3 m/s^2 and then 2 m/s.
-static void stacks_rise(void) {
-  enum { TALL = 4 };
+// ---- on what moves
+
+// How a platform goes: starts, goes, and stops.
+typedef struct ride {
+  double accelerates, fast;  // metres or radians a second, and a second more
+  int frames;                // at that speed
+  int axis;                  // 0 to 2: along it; 3: about z
+  int stacks, tall;          // on it
+  double friction, within;   // metres: how far from its place a box may come
+} ride;
+
+static nsvcd_pose ride_pose(const ride *r, double at) {
+  if (r->axis == 3) return turned(0, 0, -0.1, 2, at);
+  return pose_of(r->axis == 0 ? at : 0, r->axis == 1 ? at : 0, (r->axis == 2 ? at : 0) - 0.1);
+}
+// Where a place on the platform is.
+static void ride_carries(const ride *r, double at, const double place[3], double out[3]) {
+  const double c = r->axis == 3 ? cos(at) : 1;
+  const double s = r->axis == 3 ? sin(at) : 0;
+  out[0] = c * place[0] - s * place[1] + (r->axis == 0 ? at : 0);
+  out[1] = s * place[0] + c * place[1] + (r->axis == 1 ? at : 0);
+  out[2] = place[2] + (r->axis == 2 ? at : 0);
+}
+// Returns the most that a box has come off its place while it rode.
+static double take_a_ride(const ride *r, double ceiling) {
+  enum { MOST = 20 };
+  stage s = stage_begin();
+  nsvcd_world_mover m[MOST];
+  double places[MOST][3];
+  double off = 0, at = 0, speed = 0;
+  const int all = r->stacks * r->tall;
+  const int ramp = (int)(60 * fabs(r->fast) / r->accelerates + 0.5);
+  const size_t lift = stage_add(&s, thing_box(4, 4, 0.2), pose_of(0, 0, -0.1), 0);
+  nsvcd_step_answer answer;
+  if (ceiling > 0) stage_add(&s, thing_box(9, 9, 1), pose_of(0, 0, ceiling + 0.5), 1);
+  for (int k = 0; k < all; k++) {
+    m[k] = add_cube(&s, 0.502 * (k / r->tall), 0.9 + 0.02 * (k % 2),
+                    0.2515 + 0.5015 * (k % r->tall), 1, 1);
+    m[k].how.friction = (float)r->friction;
+  }
+  for (int f = 0; f < 60; f++) answer = step(&s, m, (size_t)all, &earth);
+  CHECK_EQ(answer.asleep, all);
+  for (int k = 0; k < all; k++)
+    for (int i = 0; i < 3; i++) places[k][i] = (double)stage_pose(&s, m[k].id).position[i];
+  for (int f = 0; f < r->frames + 2 * ramp; f++) {
+    const double share =
+        ramp > 0 ? fmin(1, fmin(f + 1, r->frames + 2 * ramp - f) / (double)ramp) : 1;
+    speed = r->fast * share;
+    at += speed / 60;
+    const nsvcd_pose to = ride_pose(r, at);
+    CHECK_EQ(nsvcd_world_drive(s.world, lift, &to), NSVCD_OK);
+    CHECK_EQ(step(&s, m, (size_t)all, &earth).caught, 0);
+    keep_apart(&s, m, (size_t)all);
+    for (int k = 0; k < all; k++) {
+      const nsvcd_pose now = stage_pose(&s, m[k].id);
+      double there[3];
+      ride_carries(r, at, places[k], there);
+      for (int i = 0; i < 3; i++) off = fmax(off, fabs((double)now.position[i] - there[i]));
+    }
+  }
+  for (int f = 0; f < 60; f++) answer = step(&s, m, (size_t)all, &earth);
+  keep_apart(&s, m, (size_t)all);
+  CHECK_EQ(answer.asleep, all);
+  stage_end(&s);
+  return off;
+}
+
+static void stacks_ride(void) {
+  static const ride rides[] = {
+      {3, 1, 40, 2, 1, 1, 0.5, 0},     {3, 2, 40, 2, 1, 4, 0.5, 0},
+      {3, -1, 40, 2, 1, 1, 0.5, 0},    {3, -2, 40, 2, 1, 2, 0.5, 0},
+      {3, -1, 40, 2, 1, 5, 0.5, 0},    {3, -2, 40, 2, 1, 10, 0.5, 0},
+      {0.5, 0.5, 30, 0, 1, 5, 0.5, 0}, {1.5, 1, 30, 0, 1, 5, 0.5, 0},
+      {1.5, -1, 30, 1, 1, 10, 0.5, 0}, {1.5, -1, 30, 0, 2, 4, 0.5, 0},
+      {3, -2, 30, 2, 2, 4, 0.5, 0},    {1, 1, 90, 3, 1, 5, 0.5, 0},
+      {1, -1, 90, 3, 2, 3, 0.5, 0},
+  };
+  for (size_t k = 0; k < sizeof rides / sizeof *rides; k++) {
+    const double off = take_a_ride(&rides[k], 0);
+    CHECK_LE(off, 0.004);
+  }
+}
+
+// Beneath a ceiling: a stack goes up to it, and down again.
+static void a_stack_rides_beneath_a_ceiling(void) {
+  const ride up = {3, 1, 20, 2, 1, 3, 0.5, 0};
+  CHECK_LE(take_a_ride(&up, 1.503 + 41.0 / 60 + 0.002), 0.004);
+}
+
+// At 8 m/s^2 a friction of 0.5 gives 4.9: the stack falls behind by what is lacking, all of it by the same.
+static void stacks_fall_behind(void) {
+  enum { TALL = 4, FRAMES = 30 };
   stage s = stage_begin();
   nsvcd_world_mover m[TALL];
-  const size_t lift = stage_add(&s, thing_box(3, 3, 0.2), pose_of(0, 0, -0.1), 0);
+  const size_t train = stage_add(&s, thing_box(12, 4, 0.2), pose_of(0, 0, -0.1), 0);
   double at = 0;
   for (int k = 0; k < TALL; k++) m[k] = add_cube(&s, 0, 0, 0.2515 + 0.5015 * k, 1, 1);
   for (int f = 0; f < 60; f++) step(&s, m, TALL, &earth);
-  for (int k = 0; k < TALL; k++) CHECK_EQ(m[k].asleep, 1);
-  for (int f = 0; f < 90; f++) {
-    at += 2 * fmin(1, fmin(f, 89 - f) / 20.0) / 60;
-    const nsvcd_pose to = pose_of(0, 0, at - 0.1);
-    CHECK_EQ(nsvcd_world_drive(s.world, lift, &to), NSVCD_OK);
+  for (int f = 0; f < FRAMES; f++) {
+    at += 8.0 * (f + 1) / 3600;
+    const nsvcd_pose to = pose_of(at, 0, -0.1);
+    CHECK_EQ(nsvcd_world_drive(s.world, train, &to), NSVCD_OK);
     CHECK_EQ(step(&s, m, TALL, &earth).caught, 0);
     keep_apart(&s, m, TALL);
   }
+  const double gone = 0.5 * 4.905 * FRAMES * FRAMES / 3600;
   for (int k = 0; k < TALL; k++) {
     const nsvcd_pose now = stage_pose(&s, m[k].id);
-    CHECK_NEAR(now.position[2], at + 0.251 + 0.501 * k, 0.01);
-    CHECK_NEAR(now.position[0], 0, 0.01);
+    CHECK_NEAR(now.position[0], gone, 0.06);
+    CHECK_NEAR(now.position[2], 0.251 + 0.501 * k, 0.01);
   }
   stage_end(&s);
+}
+
+// What is carried goes no farther than a wall, and all that stands on it stays with it. A character on a
+// stack is carried as the stack is. What lies beside the platform is pushed out of the way.
+static void who_cannot_be_carried_stays(void) {
+  for (int kind = 0; kind < 3; kind++) {
+    stage s = stage_begin();
+    nsvcd_world_mover m[5];
+    size_t count = 3;
+    add_floor(&s);
+    const size_t train = stage_add(&s, thing_box(4, 2, 0.2), pose_of(0, 0, 0.111), 0);
+    for (int k = 0; k < 3; k++) m[k] = add_cube(&s, 1.2, 0, 0.4635 + 0.5015 * k, 1, 1);
+    if (kind == 0) stage_add(&s, thing_box(0.5, 4, 6), pose_of(2.4, 0, 3.5), 1);
+    if (kind == 1) {
+      m[count] = add_cube(&s, 1.2, 0, 0.4635 + 0.5015 * 3, 0, 0);
+      m[count++].how.up[2] = 1;
+    }
+    if (kind == 2) m[count++] = add_cube(&s, 2.5, 0, 0.2515, 1, 1);
+    for (int f = 0; f < 60; f++) step(&s, m, count, &earth);
+    double at = 0;
+    for (int f = 0; f < 60; f++) {
+      at += 1.0 / 60 * fmin(1, (f + 1) / 20.0);
+      const nsvcd_pose to = pose_of(at, 0, 0.111);
+      CHECK_EQ(nsvcd_world_drive(s.world, train, &to), NSVCD_OK);
+      CHECK_EQ(step(&s, m, count, &earth).caught, 0);
+      keep_apart(&s, m, count);
+    }
+    for (size_t k = 0; k < count; k++) {
+      const nsvcd_pose now = stage_pose(&s, m[k].id);
+      if (kind == 2 && k == 3) {
+        CHECK_GE(now.position[0], 2.25 + at - 0.01);
+        continue;
+      }
+      CHECK_NEAR(now.position[0], kind == 0 ? 1.899 : 1.2 + at, 0.02);
+      CHECK_NEAR(now.position[2], 0.463 + 0.501 * (double)k, 0.01);
+    }
+    stage_end(&s);
+  }
+}
+
+// What falls on a stack that goes down, or up, comes to rest there.
+static void what_lands_on_a_stack_rides(void) {
+  for (int kind = 0; kind < 2; kind++) {
+    stage s = stage_begin();
+    nsvcd_world_mover m[3];
+    const double speed = kind ? 1 : -1;
+    const size_t lift = stage_add(&s, thing_box(4, 4, 0.2), pose_of(0, 0, -0.1), 0);
+    double at = 0;
+    for (int k = 0; k < 3; k++) m[k] = add_cube(&s, 0, 0, k == 2 ? 1.6 : 0.2515 + 0.5015 * k, 1, 1);
+    for (int f = 0; f < 120; f++) {
+      at += speed / 60 * fmin(1, f / 20.0);
+      const nsvcd_pose to = pose_of(0, 0, at - 0.1);
+      CHECK_EQ(nsvcd_world_drive(s.world, lift, &to), NSVCD_OK);
+      CHECK_EQ(step(&s, m, 3, &earth).caught, 0);
+      keep_apart(&s, m, 3);
+    }
+    for (int k = 0; k < 3; k++)
+      CHECK_NEAR(stage_pose(&s, m[k].id).position[2], at + 0.251 + 0.501 * k, 0.004);
+    stage_end(&s);
+  }
+}
+
+// A crowd on a platform that goes about, rises, sinks and tilts, between walls and beneath a beam: what was
+// clear of all is so after each frame, or is told as caught.
+static void a_crowd_is_carried_about(void) {
+  enum { CROWD = 10 };
+  for (int trial = 0; trial < 3; trial++) {
+    stage s = stage_begin();
+    nsvcd_world_mover m[CROWD];
+    int caught = 0;
+    const size_t floor = stage_add(&s, thing_box(4, 4, 0.2), pose_of(0, 0, -0.1), 0);
+    stage_add(&s, thing_box(0.5, 9, 9), pose_of(2.2, 0, 0), 1);
+    stage_add(&s, thing_box(9, 0.5, 9), pose_of(0, -2.2, 0), 1);
+    stage_add(&s, thing_box(0.3, 9, 0.3), pose_of(-0.5, 0, 2.6), 1);
+    for (int k = 0; k < CROWD; k++) {
+      m[k] = k == 9 ? add_cube(&s, 0, -0.7, 0.26, 0, 0)
+                    : add_cube(&s, 0.6 * (k % 3) - 0.6, 0.6 * (k / 3 % 2), 0.26 + 0.502 * (k / 6),
+                               1, 1);
+    }
+    m[9].how.up[2] = 1;
+    m[9].push_mass = 40;
+    for (int f = 0; f < 150; f++) {
+      const double t = f / 60.0 * (1 + 0.5 * trial);
+      double before[CROWD];
+      nsvcd_pose to = turned(0.5 * sin(2 * t), 0.4 * sin(1.3 * t), 0.5 * sin(1.7 * t) - 0.1, trial,
+                             trial == 2 ? 0.8 * t : 0.15 * sin(t));
+      for (int k = 0; k < CROWD; k++) before[k] = stage_apart(&s, m[k].id);
+      CHECK_EQ(nsvcd_world_drive(s.world, floor, &to), NSVCD_OK);
+      m[9].velocity.linear[0] = (float)sin(t);
+      caught += (int)step(&s, m, CROWD, &earth).caught;
+      for (int k = 0; k < CROWD; k++)
+        if (before[k] >= (double)NEAR - 1e-5 && !m[k].answer.caught)
+          CHECK_GE(stage_apart(&s, m[k].id), (double)NEAR * 0.5 - 1e-5);
+    }
+    CHECK_LE(caught, 100);
+    stage_end(&s);
+  }
 }
 
 // ---- momentum
@@ -441,7 +627,12 @@ static void masses_are_those_on_paper(void) {
 
 void test_step(void) {
   RUN(seven_stacks_of_five_stand);
-  RUN(stacks_rise);
+  RUN(stacks_ride);
+  RUN(a_stack_rides_beneath_a_ceiling);
+  RUN(stacks_fall_behind);
+  RUN(who_cannot_be_carried_stays);
+  RUN(what_lands_on_a_stack_rides);
+  RUN(a_crowd_is_carried_about);
   RUN(two_share_their_momentum);
   RUN(a_crowd_gains_no_energy);
   RUN(what_sleeps_wakes);

@@ -18,12 +18,15 @@ const char *nsvcd_result_string(nsvcd_result);
 nsvcd_result nsvcd_obj_parse(const char *, size_t, const nsvcd_allocator *, nsvcd_mesh *, size_t *);
 nsvcd_result nsvcd_mesh_cut(const nsvcd_mesh *, const float[3], const float[3],
                             const nsvcd_allocator *, nsvcd_mesh *);
+nsvcd_result nsvcd_mesh_hull(const float *, size_t, const nsvcd_allocator *, nsvcd_mesh *);
+nsvcd_result nsvcd_mesh_of_heights(const float *, size_t, size_t, const float[2],
+                                   const nsvcd_allocator *, nsvcd_mesh *);
 void nsvcd_mesh_free(nsvcd_mesh *, const nsvcd_allocator *);
 nsvcd_result nsvcd_encode(const nsvcd_mesh *, const nsvcd_encode_options *, const nsvcd_allocator *,
                           void *, size_t, const nsvcd_body **);
 void nsvcd_body_free(const nsvcd_body *, const nsvcd_allocator *);
 nsvcd_result nsvcd_body_load(const void *, size_t, const nsvcd_body **);
-nsvcd_result nsvcd_body_scale(const nsvcd_body *, const float *, void *, size_t,
+nsvcd_result nsvcd_body_scale(const nsvcd_body *, const float[3], void *, size_t,
                               const nsvcd_body **);
 nsvcd_body_facts nsvcd_body_describe(const nsvcd_body *);
 int nsvcd_body_patch(const nsvcd_body *, uint32_t, float[3], float *);
@@ -78,6 +81,10 @@ nsvcd_result nsvcd_world_list(const nsvcd_world *, const nsvcd_world_question *,
 nsvcd_result nsvcd_world_pairs(const nsvcd_world *, float, nsvcd_body_pair *, size_t, size_t *);
 nsvcd_result nsvcd_world_slide(nsvcd_world *, size_t, const nsvcd_slide_options *, float, void *,
                                size_t, nsvcd_velocity *, nsvcd_slide_answer *);
+nsvcd_result nsvcd_world_step(nsvcd_world *, nsvcd_world_mover *, size_t,
+                              const nsvcd_step_options *, float, void *, size_t,
+                              nsvcd_step_answer *);
+nsvcd_result nsvcd_mesh_mass(const nsvcd_mesh *, nsvcd_mass *);
 
 // A mesh from the bytes of a file, of which the name may be "". placed: its origin, in the file's
 // units, and its scale. Returns why there is none, or NULL.
@@ -246,6 +253,17 @@ static const neuralsvcd_layout layouts[] = {
     FIELD(slide_answer, contacts), FIELD(slide_answer, questions), FIELD(slide_answer, work),
     FIELD(slide_answer, told), FIELD(slide_answer, given), FIELD(slide_answer, seconds),
     FIELD(slide_answer, clock),
+    STRUCT(world_mover), FIELD(world_mover, id), FIELD(world_mover, how), FIELD(world_mover, velocity),
+    FIELD(world_mover, push_mass), FIELD(world_mover, damping), FIELD(world_mover, spin_damping),
+    FIELD(world_mover, asleep), FIELD(world_mover, sleepless), FIELD(world_mover, calm),
+    FIELD(world_mover, answer),
+    STRUCT(step_options), FIELD(step_options, gravity), FIELD(step_options, quiet),
+    FIELD(step_options, calm),
+    STRUCT(step_answer), FIELD(step_answer, awake), FIELD(step_answer, asleep),
+    FIELD(step_answer, caught), FIELD(step_answer, contacts), FIELD(step_answer, questions),
+    FIELD(step_answer, work), FIELD(step_answer, refused),
+    STRUCT(mass), FIELD(mass, volume), FIELD(mass, centre), FIELD(mass, inertia),
+    FIELD(mass, is_of_box),
     CONSTANT(JOINT_REVOLUTE), CONSTANT(JOINT_CONTINUOUS), CONSTANT(JOINT_PRISMATIC),
     CONSTANT(ROUTE_FOUND), CONSTANT(ROUTE_LIMIT), CONSTANT(ROUTE_STOPPED), CONSTANT(ROUTE_START),
     CONSTANT(ROUTE_GOAL),

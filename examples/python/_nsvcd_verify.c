@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // _nsvcd_verify.c - the checker of certificates as the module nsvcd_verify loads it, with ctypes. It has
 // nothing of neuralsvcd.h. What is prepared lies in memory of Python's, which does not look into it.
-#include "examples/verify/nsvcd_verify.h"
+#include "examples/verify/nsvcd_verify_claim.h"
 
 // Rays write to the sums of a mesh. So that threads may share one, a mover has a copy with its own.
 typedef struct verifier_mover {
@@ -50,4 +50,8 @@ const char *verifier_verify(const verifier_mover *a, const verifier_mover *b, fl
   told[3] = (double)report.b;
   told[4] = (double)report.position;
   return report.reason;
+}
+
+void verifier_claim(const verifier_mover *a, const verifier_mover *b, float clearance, uint8_t *claim) {
+  (void)nsvcd_verify_claim(&a->mover, &b->mover, clearance, claim);
 }

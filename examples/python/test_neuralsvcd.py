@@ -4,6 +4,7 @@ from __future__ import annotations
 import copy
 import functools
 import gc
+import hashlib
 import io
 import os
 import pickle
@@ -417,7 +418,7 @@ class Batches(unittest.TestCase):
         self.paths[50, 0, 6] = 2
         error = raised(nsvcd.sweep_batch, MUG, RACK, self.paths)
         self.assertEqual((error.code, error.index), (Code.QUATERNION, 37))
-        self.assertIn("motion 37", str(error))
+        self.assertIn("index 37", str(error))
         same = self.paths[:9]
         self.assertEqual(raised(nsvcd.sweep_batch, MUG, MUG, same, same).code, Code.SAME)
         error = raised(nsvcd.sweep_batch, [MUG, RACK, MUG], MUG, scale_a=[2, 1, 1])
@@ -740,6 +741,84 @@ class Meshes(unittest.TestCase):
         with self.assertRaises(ValueError):
             nsvcd.cut_mesh(CUBE, FACES, [0, 0], [1, 1, 1])
 
+    def test_hull(self) -> None:
+        draw = np.random.default_rng(5)
+        grid = np.stack(np.meshgrid(*[np.linspace(-1, 1, 5)] * 3), -1).reshape(-1, 3)
+        for points, corners in ((draw.normal(size=(500, 3)), None), (grid, 8), (np.repeat(CUBE, 3, axis=0), 8)):
+            hull = nsvcd.Mesh.hull(points)
+            points = np.float32(points).astype(float)
+            self.assertTrue({*map(tuple, hull.vertices.tolist())} <= {*map(tuple, points.tolist())})
+            self.assertEqual(corners or len(hull.vertices), len(hull.vertices))
+            a, b, c = np.moveaxis(hull.vertices[hull.triangles].astype(float), 1, 0)
+            normals = np.cross(b - a, c - a)
+            beyond = np.einsum("mk,mnk->mn", normals, points - a[:, None]) / np.linalg.norm(normals, axis=1)[:, None]
+            self.assertLess(beyond.max(), 1e-7)
+            edges = {(int(t[k]), int(t[k - 1])) for t in hull.triangles for k in range(3)}
+            self.assertEqual(len(edges), 3 * len(hull.triangles))
+            self.assertEqual(edges, {(b, a) for a, b in edges})  # it is closed
+            self.assertEqual(len(hull.triangles), 2 * len(hull.vertices) - 4)
+            self.assertEqual(Body(*hull).facts.open_edges, 0)
+        for code, points in ((Code.EMPTY, grid[grid[:, 0] == 1]), (Code.EMPTY, [[0, 0, 0]] * 9), (Code.NUMBER, [[0, 0, np.nan]] * 9),
+                             (Code.NUMBER, 1e30 * CUBE)):
+            self.assertEqual(raised(nsvcd.Mesh.hull, points).code, code)
+        for points in ([1, 2, 3], np.zeros((4, 2)), [[1, 2, 3], [4, 5]]):
+            self.assertRaises(ValueError, nsvcd.Mesh.hull, points)
+        self.assertRaises(TypeError, nsvcd.Mesh.hull, [["a", "b", "c"]])
+
+    def test_heights(self) -> None:
+        draw = np.random.default_rng(6)
+        for shape, holes in (((7, 11), 0), ((7, 11), 9), ((2, 2), 1)):
+            field = draw.normal(size=shape)
+            field.flat[draw.choice(field.size, holes, replace=False)] = np.nan
+            mesh = nsvcd.Mesh.heights(field[::-1], (0.5, 0.25))
+            rows, columns = np.indices(shape)
+            samples = np.float32(np.stack([0.5 * columns, 0.25 * rows, field[::-1]], -1))
+            wanted = set()
+            for row in range(shape[0] - 1):
+                for column in range(shape[1] - 1):
+                    cell = [samples[row + k, column + n] for k, n in ((0, 0), (0, 1), (1, 1), (1, 0))]
+                    there = [tuple(corner) for corner in cell if not np.isnan(corner[2])]
+                    if len(there) == 3:
+                        wanted.add(frozenset(there))
+                    if len(there) == 4:
+                        wanted |= {frozenset(there[:3]), frozenset([there[0], *there[2:]])}
+            corners = mesh.vertices[mesh.triangles]
+            self.assertEqual({frozenset(map(tuple, triangle)) for triangle in corners}, wanted)
+            self.assertEqual(len(corners), len(wanted))
+            self.assertTrue((np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])[:, 2] > 0).all())
+        flat = Body(*nsvcd.Mesh.heights(np.zeros((3, 3))), open=True)
+        self.assertEqual([bool(nsvcd.sweep(Body.sphere(0.1), flat, at(1.5, 1.5, z))) for z in (0.09, 0.11)], [True, False])
+        for code, where, call in ((Code.EMPTY, "", ([[np.nan, 0], [np.nan, 0]],)), (Code.EMPTY, "", (np.zeros((1, 9)),)),
+                                  (Code.SCALE, "step", (field, 0)), (Code.SCALE, "step", (field, (1, -1))),
+                                  (Code.NUMBER, "", ([[np.inf, 0], [0, 0]],)), (Code.EMPTY, "", (np.zeros((0, 5)),))):
+            error = raised(nsvcd.Mesh.heights, *call)
+            self.assertEqual((error.code, error.where), (code, where))
+        for call in (([1, 2, 3],), (field, (1, 2, 3)), (np.zeros((2, 2, 2)),)):
+            self.assertRaises(ValueError, nsvcd.Mesh.heights, *call)
+
+    def test_mass(self) -> None:
+        """Against a box, and against covariances of tetrahedra."""
+        box = nsvcd.Mesh(CUBE * [0.5, 1, 1.5] + [3, 4, 5], FACES).mass()
+        self.assertAlmostEqual(box.volume, 6, places=5)
+        np.testing.assert_allclose(box.centre, [3, 4, 5], rtol=1e-6)
+        np.testing.assert_allclose(box.inertia, [13 / 12, 10 / 12, 5 / 12], rtol=1e-5)
+        self.assertEqual((box.is_of_box, box.inertia.dtype), (False, np.float32))
+        for mesh in (nsvcd.load_obj(ASSETS / "mug.obj"), nsvcd.Mesh.hull(np.random.default_rng(7).normal(size=(40, 3)))):
+            corners = mesh.vertices[mesh.triangles].astype(float)
+            volumes = np.linalg.det(corners) / 6
+            centre = (volumes[:, None] * corners.sum(1) / 4).sum(0) / volumes.sum()
+            squares = volumes / 20 @ ((corners**2).sum(1) + corners.sum(1)**2) / volumes.sum() - centre**2
+            mass = mesh.mass()
+            self.assertFalse(mass.is_of_box)
+            self.assertAlmostEqual(mass.volume / volumes.sum(), 1, places=5)
+            np.testing.assert_allclose(mass.centre, centre, atol=1e-6)
+            np.testing.assert_allclose(mass.inertia, squares.sum() - squares, rtol=1e-4)
+        for faces in (FACES[:-1], FACES[:, ::-1]):
+            mass = nsvcd.Mesh(CUBE, faces).mass()
+            self.assertEqual((mass.is_of_box, mass.volume), (True, 8))
+        for code, mesh in ((Code.INDEX, (CUBE, FACES + 1)), (Code.NUMBER, (CUBE * np.nan, FACES)), (Code.EMPTY, (CUBE, np.zeros((0, 3), int)))):
+            self.assertEqual(raised(nsvcd.Mesh(*mesh).mass).code, code)
+
 
 class Errors(unittest.TestCase):
     def test_texts(self) -> None:
@@ -835,8 +914,26 @@ class Bodies(unittest.TestCase):
         self.assertAlmostEqual(double.facts.radius, 2 * BOX.facts.radius, places=5)
         for x, hits in ((2.9, True), (3.1, False)):
             self.assertEqual(bool(nsvcd.sweep(double, BOX, at(x, 0, 0))), hits)
-        for bad in (0, np.nan, 1e30):
+        for bad in (0, np.nan, 1e30, (1, 0, 1), (1, 1, np.nan)):
             self.assertEqual(raised(BOX.scaled, bad).code, Code.SCALE)
+        for bad in ((1, 2), [[1, 2, 3]], (), np.ones(4)):
+            self.assertRaises(ValueError, BOX.scaled, bad)
+        self.assertRaises(TypeError, BOX.scaled, "2")
+
+    def test_stretched(self) -> None:
+        for factors in ((1, 2, 3), (1, -2, 3), np.array([2, 2, -2])):
+            body, mesh = BOX.scaled(factors), Body(CUBE * factors, FACES[:, ::-1] if np.prod(factors) < 0 else FACES)
+            np.testing.assert_allclose([body.facts.low, body.facts.high], [mesh.facts.low, mesh.facts.high], atol=1e-5)
+            self.assertEqual(body.facts.open_edges, 0)
+            for axis in range(3):
+                for gap in (-1e-3, 1e-3):
+                    place = np.zeros(3)
+                    place[axis] = abs(factors[axis]) + 0.1 + gap
+                    self.assertEqual(bool(nsvcd.sweep(body, BOX, at(0, 0, 0), at(*place), scale_b=0.1)), gap < 0)
+        self.assertEqual(bytes(MUG.scaled((2, 2, 2))), bytes(MUG.scaled(2)))
+        self.assertEqual((MUG.scaled(2).facts.latents, MUG.scaled((2, 2, 1)).facts.latents), (True, False))
+        self.assertEqual(raised(Body.sphere(1).scaled, (1, 1, 2)).code, Code.SCALE)
+        self.assertEqual(raised(Body(CUBE, FACES, no_triangles=True).scaled, (1, 1, 2)).code, Code.TRIANGLES)
 
     def test_cannot_be_changed(self) -> None:
         with self.assertRaises(ValueError):
@@ -1512,6 +1609,171 @@ class Worlds(unittest.TestCase):
             self.assertTrue(all(future.result() for future in asked))
 
 
+class Steps(unittest.TestCase):
+    """A floor, whose top is at 0, and cubes of 0.2 m."""
+
+    def setUp(self) -> None:
+        self.world = nsvcd.World(16)
+        self.floor = self.world.add(BOX, at(0, 0, -1)[0], fixed=True)
+
+    def cube(self, *place: float, **named) -> int:
+        return self.world.add(BOX, at(*place)[0], scale=0.1, **named)
+
+    def movers(self, ids: list[int], **named) -> nsvcd.Movers:
+        inertia = 2 * 0.1**2 * nsvcd.Mesh(CUBE, FACES).mass().inertia
+        return nsvcd.Movers(ids, **{"mass": 2, "inertia": inertia, "friction": 0.5, **named})
+
+    def test_a_stack(self) -> None:
+        box = nsvcd.Mesh.hull(CUBE)
+        world = nsvcd.World(6)
+        floor = world.add(Body(*box), at(0, 0, -1)[0], fixed=True)
+        ids = [world.add(BOX, at(0.01 * k, 0, 0.3 + 0.25 * k)[0], scale=0.1) for k in range(5)]
+        movers = nsvcd.Movers(ids, mass=2, inertia=2 * 0.1**2 * box.mass().inertia, friction=0.5)
+        fastest = 0.0
+        for frame in range(300):
+            step = world.step(movers, 1 / 60)
+            fastest = max(fastest, -movers.velocity[:, 2].min())
+            if movers.asleep.all():
+                break
+        self.assertGreater(fastest, 1)
+        self.assertLess(frame, 120)
+        self.assertEqual((step.asleep, step.caught), (5, 0))
+        np.testing.assert_array_equal(movers.velocity, np.zeros((5, 6)))
+        rest = world.poses(ids)
+        np.testing.assert_allclose(rest[:, 2], [0.1 + 0.2 * k for k in range(5)], atol=0.01)
+        self.assertTrue((np.diff(rest[:, 2]) > 0.2).all() and rest[0, 2] > 0.1)
+        self.assertFalse(any(world.sweep(id) for id in ids))
+        self.assertEqual({contact.body for contact in movers.contacts(0)}, {floor, ids[1]})
+        self.assertEqual(world.step(movers, 1 / 60), (0, 5, 0, 0, 0, 0))
+        np.testing.assert_array_equal(world.poses(ids), rest)
+
+    def test_rows(self) -> None:
+        """Each body has its own, and what is written counts."""
+        ids = [self.cube(0, 0, 5), self.cube(2, 0, 5), self.cube(4, 0, 5)]
+        movers = self.movers(ids, mass=[1, 2, 3], damping=[0, 1, 0], velocity=[[1, 0, 0]] * 3)
+        self.assertEqual((len(movers), movers.ids.tolist(), movers.mass.tolist()), (3, ids, [1, 2, 3]))
+        self.assertEqual((movers.velocity.shape, movers.inertia.shape, movers.up.shape), ((3, 6), (3, 3), (3, 3)))
+        self.assertEqual((movers.asleep.dtype, movers.rounds.dtype, movers.mass.dtype), (bool, np.uint64, np.float32))
+        np.testing.assert_array_equal(movers.velocity[:, 3:], 0)
+        movers.asleep[2] = True
+        movers.velocity[2] = 0
+        movers.velocity[:2, 5] += 1
+        step = self.world.step(movers, 0.1)
+        self.assertEqual((step.awake, step.asleep), (2, 1))
+        np.testing.assert_allclose(movers.velocity[0], [1, 0, -0.981, 0, 0, 1], rtol=1e-5)
+        np.testing.assert_allclose(movers.velocity[1], [1 / 1.1, 0, -0.981 / 1.1, 0, 0, 1], rtol=1e-5)
+        places = self.world.poses(ids)
+        np.testing.assert_allclose(places[:, 0], [0.1, 2 + 0.1 / 1.1, 4], rtol=1e-5)
+        np.testing.assert_allclose(places[:2, 5], np.sin(0.05), rtol=1e-4)
+        movers.velocity = 0
+        movers.sleepless = [True, False, False]
+        self.world.step(movers, 0.1, gravity=(0, 0, 0))
+        np.testing.assert_array_equal(self.world.poses(ids), places)
+        self.assertEqual(self.world.step(self.movers([]), 0.1), (0, 0, 0, 0, 0, 0))
+        for kind, call in (
+                (AttributeError, lambda: setattr(movers, "masses", 1)), (AttributeError, lambda: setattr(movers, "_memory", 1)),
+                (ValueError, lambda: setattr(movers, "ids", [1, 2, 3])), (ValueError, lambda: setattr(movers, "ground", 1)),
+                (ValueError, lambda: setattr(movers, "mass", [1, 2])), (ValueError, lambda: setattr(movers, "velocity", [1, 2])),
+                (ValueError, lambda: setattr(movers, "work", -1)), (TypeError, lambda: setattr(movers, "work", 1.5)),
+                (TypeError, lambda: setattr(movers, "mass", "1")), (TypeError, lambda: setattr(movers, "asleep", 0.5)),
+                (TypeError, lambda: nsvcd.Movers([1.5])), (ValueError, lambda: nsvcd.Movers(2)),
+                (TypeError, lambda: nsvcd.Movers([2], weight=1)), (TypeError, lambda: copy.deepcopy(movers))):
+            self.assertRaises(kind, call)
+        self.assertEqual(raised(nsvcd.Movers, [0]).code, Code.INDEX)
+        self.assertEqual((movers.mass.tolist(), movers.ids.tolist()), ([1, 2, 3], ids))
+
+    def test_they_come_and_go(self) -> None:
+        ids = [self.cube(0, 0, 0.102), self.cube(0, 0, 0.31)]
+        movers = self.movers(ids)
+        while not movers.asleep.all():
+            self.world.step(movers, 1 / 60)
+        movers = movers + self.movers([self.cube(0, 0, 1)], mass=4)
+        self.assertEqual((len(movers), movers.asleep.tolist(), movers.mass.tolist()), (3, [True, True, False], [2, 2, 4]))
+        self.world.step(movers, 1 / 60)
+        self.assertEqual(movers.asleep.tolist(), [True, True, False])
+        self.world.remove(ids[0])  # from under the others
+        before = movers[:]
+        error = raised(self.world.step, movers, 1 / 60)
+        self.assertEqual((error.code, error.where, error.index), (Code.INDEX, "ids", 0))
+        movers = movers[movers.ids != ids[0]]
+        self.world.step(movers, 1 / 60)
+        self.assertEqual((movers.asleep.tolist(), before.asleep.tolist()), ([False, False], [True, True, False]))
+        self.assertEqual([len(movers[which]) for which in (0, slice(1, None), [1, 0], movers.mass > 3)], [1, 1, 2, 1])
+        self.assertRaises(ValueError, nsvcd.World(3).step, movers, 1)
+        other = nsvcd.World(3)
+        stranger = nsvcd.Movers([other.add(BOX)], mass=1)
+        other.step(stranger, 0.1)
+        self.assertRaises(ValueError, lambda: movers + stranger)
+
+    def test_they_push_each_other(self) -> None:
+        """Momentum is kept, on ice."""
+        ids = [self.cube(-0.5, 0, 2), self.cube(0, 0, 2)]
+        movers = self.movers(ids, mass=[1, 3], inertia=0, friction=0, restitution=0.5, velocity=[[2, 0, 0], [0, 0, 0]])
+        for _ in range(30):
+            self.world.step(movers, 1 / 60, gravity=(0, 0, 0))
+        self.assertAlmostEqual(float(movers.mass @ movers.velocity[:, 0]), 2, places=4)
+        self.assertGreater(movers.velocity[1, 0], 0.4)
+        self.assertGreaterEqual(movers.velocity[1, 0], movers.velocity[0, 0])
+
+    def test_characters(self) -> None:
+        """One walks up a lift's side, rides it, and shoves a crate."""
+        lift = self.world.add(BOX, at(0, 0, -0.05)[0], scale=0.06, fixed=True)
+        walker, crate = self.cube(0, 0, 0.2), self.cube(0.5, 0, 0.102)
+        movers = self.movers([walker, crate], mass=[0, 1], inertia=0, friction=[0, 0.2], up=(0, 0, 1), step=0.1, push_mass=[80, 0])
+        for _ in range(20):
+            self.world.step(movers, 1 / 60)
+        self.assertEqual((movers.ground[0], movers.ground_normal[0].round(3).tolist()), (lift, [0, 0, 1]))
+        before = self.world.get(walker).pose[2]
+        self.world.drive(lift, at(0, 0, 0)[0])
+        self.assertEqual(self.world.step(movers, 1 / 10).caught, 0)
+        self.assertGreater(self.world.get(walker).pose[2], before + 0.04)
+        self.assertEqual(self.world.get(lift).pose, tuple(at(0, 0, 0)[0]))  # it has arrived
+        for _ in range(36):
+            movers.velocity[0, :2] = 1, 0
+            self.world.step(movers, 1 / 60)
+        self.assertGreater(self.world.get(crate).pose[0], 0.6)
+        self.assertFalse(any(self.world.sweep(id) for id in (walker, crate)))
+        press = self.world.add(BOX, [self.world.get(crate).pose[0], 0, 0.5, 0, 0, 0, 1], scale=0.1)
+        self.world.drive(press, [self.world.get(crate).pose[0], 0, 0.15, 0, 0, 0, 1])
+        self.assertEqual((self.world.step(movers, 1 / 60).caught, movers.caught.tolist()), (1, [0, press]))
+
+    def test_refused(self) -> None:
+        world, ids = self.world, [self.cube(0, 0, 0.5), self.cube(0, 0, 1)]
+        movers, before = self.movers(ids, velocity=(1, 2, 3)), self.world.poses()
+        for code, where, index, step in (
+                (Code.TIMES, "seconds, calm", None, lambda: world.step(movers, 0)),
+                (Code.TIMES, "seconds, calm", None, lambda: world.step(movers, 1, calm=-1)),
+                (Code.SPEED, "quiet", None, lambda: world.step(movers, 1, quiet=-1)),
+                (Code.VALUE, "gravity", None, lambda: world.step(movers, 1, gravity=(0, 0, np.nan))),
+                (Code.INDEX, "ids", 0, lambda: world.step(self.movers([ids[0], ids[0]]), 1)),
+                (Code.INDEX, "ids", 1, lambda: world.step(self.movers([ids[0], self.floor]), 1)),
+                (Code.INDEX, "ids", 0, lambda: world.step(self.movers([9]), 1)),
+                (Code.INDEX, "ids", None, lambda: world.step(self.movers(range(1, 40)), 1)),
+                (Code.SPEED, "velocity", 1, lambda: world.step(self.movers(ids, velocity=[[0, 0, 0], [np.nan, 0, 0]]), 1))):
+            error = raised(step)
+            self.assertEqual((error.code, error.where, error.index), (code, where, index))
+        for name, value, code in (("mass", -1, Code.VALUE), ("inertia", np.nan, Code.VALUE), ("friction", -1, Code.VALUE),
+                                  ("restitution", 2, Code.VALUE), ("slope", 2, Code.VALUE), ("push_mass", -1, Code.VALUE),
+                                  ("damping", np.inf, Code.VALUE), ("spin_damping", -1, Code.VALUE), ("clearance", -1, Code.CLEARANCE),
+                                  ("margin", np.nan, Code.CLEARANCE), ("up", 2, Code.AXIS), ("step", -1, Code.DISTANCE)):
+            bad = movers[:]
+            getattr(bad, name)[1] = value
+            error = raised(world.step, bad, 1 / 60)
+            self.assertEqual((error.code, error.index, name in error.where), (code, 1, True), name)
+            self.assertIn("index 1", str(error))
+        for kind, step in ((TypeError, lambda: world.step(ids, 1)), (ValueError, lambda: world.step(movers, 1, gravity=9.81)),
+                           (TypeError, lambda: world.step(movers, "1"))):
+            self.assertRaises(kind, step)
+        np.testing.assert_array_equal(world.poses(), before)
+        np.testing.assert_array_equal(movers.velocity, [[1, 2, 3, 0, 0, 0]] * 2)
+        # one is about to leave the coordinates: all but it have moved
+        world.move(ids[1], at(0, 0, 999990)[0])
+        movers.velocity = [[0, 0, 0], [0, 0, 3000]]
+        error = raised(world.step, movers, 1 / 60)
+        self.assertEqual((error.code, error.where, error.index), (Code.POSE, "movers", 1))
+        self.assertEqual((world.get(ids[1]).pose[2], world.get(ids[0]).pose[2] < 0.5), (999990, True))
+
+
 class Certificates(unittest.TestCase):
     """Made by neuralsvcd, checked by nsvcd_verify."""
 
@@ -1536,6 +1798,25 @@ class Certificates(unittest.TestCase):
         self.assertEqual((made.verdict == "free", made.inside), (bool(report), report.kind == "inside"))
         self.assertEqual(report.time, made.time)
         return made, report
+
+    def test_claim(self) -> None:
+        """By hashlib, from the bytes that nsvcd_verify_claim.h describes."""
+        def mesh_of(name: str) -> bytes:
+            vertices, triangles = self.meshes[name]
+            return hashlib.sha256(b"nsvcd mesh 1" + struct.pack("<II", len(vertices), len(triangles)) +
+                                  np.asarray(vertices, "<f4").tobytes() + np.asarray(triangles, "<u4").tobytes()).digest()
+        turning = np.array([[0, 0, 1, 0, 0, 0, 1], [0, 0, 1, 0, 0, 0.6, 0.8], [0, 0.5, 1, 0, 0, 0, 1]])
+        expected = hashlib.sha256(
+            b"nsvcd claim 1" + struct.pack("<f", 0.01) +
+            mesh_of("mug") + struct.pack("<fBIB", 2, 1, 3, 1) + turning.astype("<f4").tobytes() +
+            struct.pack("<fff", 0, 0.25, 1) +
+            mesh_of("dish_rack") + struct.pack("<fBIB7f", 1, 1, 1, 0, 0, 0, 0, 0, 0, 0, 1)).digest()
+        scene = self.checked["mug"], self.checked["dish_rack"], turning
+        named = {"times_a": [0, 0.25, 1], "scale_a": 2, "clearance": 0.01}
+        self.assertEqual(nsvcd_verify.claim(*scene, **named), expected)
+        self.assertNotEqual(nsvcd_verify.claim(*scene, **{**named, "clearance": 0}), expected)
+        with self.assertRaises(ValueError):
+            nsvcd_verify.claim(*scene, times_a=[0, 1])
 
     def test_kinds(self) -> None:
         made, report = self.both("mug", "dish_rack", HIGH)
@@ -1726,6 +2007,7 @@ class Layouts(unittest.TestCase):
                 ('    TOO_NEAR = "too near"\n', "", "NSVCD_WHY_TOO_NEAR"),
                 ("_MAX_CONTACTS = 4", "_MAX_CONTACTS = 5", "NSVCD_MAX_CONTACTS"),
                 ("spent=c_float, rests=c_int", "rests=c_int, spent=c_float", "nsvcd_slide_answer.rests"),
+                ("sleepless=c_int, calm=c_float", "calm=c_float, sleepless=c_int", "nsvcd_world_mover.calm"),
                 ("_WORLD_CONTACTS = 32", "_WORLD_CONTACTS = 33", "NSVCD_WORLD_CONTACTS"),
                 ("inside=c_int, time=c_double", "time=c_double, inside=c_int", "nsvcd_certificate.inside"),
                 ("    CANCELLED = 5\n", "", "NSVCD_ERROR_CANCELLED"),

@@ -4,8 +4,8 @@
 // motion and pair it is, verify_files.h, verify_shapes.h, verify_plans.h and
 // verify_pairs.h.
 //
-//   verify FILE.txt FOLDER [--clearance METRES] [--only ID,ID]
-//   verify --pairs FILE.txt FOLDER [--only A-B,A-B]
+//   verify FILE.txt FOLDER [--clearance METRES] [--only ID,ID] [--claims]
+//   verify --pairs FILE.txt FOLDER [--only A-B,A-B] [--claims]
 //
 // FILE.txt is a problem file or a planning file (examples/FORMATS.md); FOLDER holds a certificate
 // ID.cert for each problem or plan, as `svcd check --certificates FOLDER` and `svcd plan
@@ -14,8 +14,10 @@
 // REASON: what is proven (free, hit, near, inside), or why it is refused and at which byte.
 // With --pairs A-B.cert of each two bodies of a robot that no line `pair` names, as `svcd pairs
 // --certificates FOLDER` writes them: what is proven is that they never meet.
-// MICROSECONDS: of one check; meshes are read, and their trees built, before. Exit status: 0 each
-// proves what its line says, which may be a hit; 1 one is refused; 2 a file cannot be read, or usage.
+// MICROSECONDS: of one check; meshes are read, and their trees built, before. With --claims a sixth
+// field: the claim that is proven (nsvcd_verify_claim.h), or the SHA-256 of several, one after the
+// other. Exit status: 0 each proves what its line says, which may be a hit; 1 one is refused; 2 a
+// file cannot be read, or usage.
 #include <time.h>
 
 #include "verify_pairs.h"
@@ -59,7 +61,7 @@ static int check(request *asked, const char *id, const side *a, const side *b) {
   size_t size;
   snprintf(path, sizeof path, "%s/%s.cert", asked->folder, id);
   uint8_t *bytes = (uint8_t *)read_file(path, &size);
-  if (!bytes) return printf("%s\trefused\tthere is no certificate\t0\t0\n", id), 0;
+  if (!bytes) return print_line(asked, id, "there is no certificate", NULL, 0, 0, 0), 0;
   const size_t room = NSVCD_VERIFY_WORKSPACE_BYTES(a->path.count + b->path.count + 2);
   void *workspace = allocate(room);
   int accepted = 0;
@@ -68,10 +70,8 @@ static int check(request *asked, const char *id, const side *a, const side *b) {
     accepted =
         nsvcd_verify(&a->mover, &b->mover, asked->clearance, bytes, size, workspace, room, &report);
   const double taken = 1e6 * (double)(clock() - start) / (double)CLOCKS_PER_SEC / REPEAT;
-  if (accepted) printf("%s\taccepted\t%s\t%zu\t%.1f\n", id, kinds[report.kind], size, taken);
-  if (!accepted)
-    printf("%s\trefused\t%s, at byte %zu\t%zu\t%.1f\n", id, report.reason, report.position, size,
-           taken);
+  if (accepted) note_claim(asked, &a->mover, &b->mover, asked->clearance);
+  print_line(asked, id, report.reason, kinds[report.kind], size, report.position, taken);
   free(workspace);
   free(bytes);
   return accepted;
@@ -98,7 +98,7 @@ static int check_problem(const char *path, char **text, char **words, size_t cou
   if (!why)
     why = nsvcd_verify_path_init(mesh_named(path, meshes, words[4]), scales[1], &b.path, &b.mover);
   const int wanted = is_wanted(asked, words[1]);
-  if (wanted && why) printf("%s\trefused\t%s\t0\t0\n", words[1], why);
+  if (wanted && why) print_line(asked, words[1], why, NULL, 0, 0, 0);
   const int accepted = !wanted || (!why && check(asked, words[1], &a, &b));
   free(poses);
   return accepted;
@@ -127,17 +127,25 @@ int main(int argc, char **argv) {
   const int pairs = argc > 1 && strcmp(argv[1], "--pairs") == 0;
   argc -= pairs;
   argv += pairs;
-  request asked = {argc > 2 ? argv[2] : NULL, NULL, 0, 0, pairs};
+  request asked;
   robot r;
-  int known = argc > 2 && argc % 2 == 1;
-  for (int i = 3; i < argc && known; i += 2) {
+  int known = argc > 2;
+  memset(&asked, 0, sizeof asked);
+  asked.folder = known ? argv[2] : NULL;
+  asked.pairs = pairs;
+  nsvcd_verify_sha_begin(&asked.claimed);
+  for (int i = 3; i < argc && known; i++) {
+    const int is_claims = strcmp(argv[i], "--claims") == 0;
     const int is_only = strcmp(argv[i], "--only") == 0;
-    known = is_only || strcmp(argv[i], "--clearance") == 0;
-    if (is_only) asked.only = argv[i + 1];
-    if (known && !is_only) asked.clearance = (float)number_of("--clearance", argv[i + 1]);
+    const int is_clearance = strcmp(argv[i], "--clearance") == 0;
+    asked.claims |= is_claims;
+    known = is_claims || ((is_only || is_clearance) && i + 1 < argc);
+    if (known && is_only) asked.only = argv[++i];
+    if (known && is_clearance) asked.clearance = (float)number_of("--clearance", argv[++i]);
   }
   if (!known) {
-    fprintf(stderr, "verify [--pairs] FILE.txt FOLDER [--clearance METRES] [--only ID,ID]\n");
+    fprintf(stderr,
+            "verify [--pairs] FILE.txt FOLDER [--clearance METRES] [--only ID,ID] [--claims]\n");
     return 2;
   }
   const char *path = argv[1];

@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "nsvcd_verify.h"
+#include "nsvcd_verify_claim.h"
 
 #define MOST_WORDS 300  // of a line
 
@@ -359,8 +359,11 @@ typedef struct request {
   const char *folder;
   const char *only;  // ID,ID: these alone; NULL: all
   float clearance;
-  size_t found;  // how many of those there were
-  int pairs;     // 1: of a robot's bodies, in place of plans
+  size_t found;              // how many of those there were
+  int pairs;                 // 1: of a robot's bodies, in place of plans
+  int claims;                // 1: the claim of what is accepted is told
+  nsvcd_verify_sha claimed;  // the claims that a certificate proves, one after the other
+  uint8_t claim[32];         // the first, then, of several, their hash
 } request;
 
 static int is_wanted(request *asked, const char *id) {
@@ -371,6 +374,28 @@ static int is_wanted(request *asked, const char *id) {
     at += word + (at[word] == ',');
   }
   return !asked->only;
+}
+
+// Adds the claim of two movers to those that a certificate proves.
+static void note_claim(request *asked, const nsvcd_verify_mover *a, const nsvcd_verify_mover *b,
+                       float clearance) {
+  uint8_t claim[32];
+  if (!asked->claims || !nsvcd_verify_claim(a, b, clearance, claim)) return;
+  if (asked->claimed.size == 0) memcpy(asked->claim, claim, sizeof claim);
+  nsvcd_verify_sha_add(&asked->claimed, claim, sizeof claim);
+}
+
+// Writes a certificate's line: why: NULL: it is accepted, and proves this; at: the byte where it is refused.
+static void print_line(request *asked, const char *id, const char *why, const char *proven,
+                       size_t size, size_t at, double taken) {
+  if (!why) printf("%s\taccepted\t%s\t%zu\t%.1f", id, proven, size, taken);
+  if (why && !size) printf("%s\trefused\t%s\t0\t0", id, why);
+  if (why && size) printf("%s\trefused\t%s, at byte %zu\t%zu\t%.1f", id, why, at, size, taken);
+  if (asked->claims) printf("\t");
+  if (!why && asked->claimed.size > 32) nsvcd_verify_sha_end(&asked->claimed, asked->claim);
+  for (int k = 0; k < 32 && asked->claims && !why; k++) printf("%02x", asked->claim[k]);
+  printf("\n");
+  nsvcd_verify_sha_begin(&asked->claimed);
 }
 
 #endif  // NSVCD_VERIFY_FILES_H

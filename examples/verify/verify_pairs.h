@@ -10,9 +10,9 @@
 #define MOST_BOXES 128  // of a stack
 
 // A box of values: NULL, or why it is not proven that two bodies are apart in all of it. swept: a link.
-static const char *check_box(const robot *r, const robot_body *const *bodies, const double *low,
-                             const double *high, uint32_t swept, const uint8_t *bytes, size_t size,
-                             size_t *at) {
+static const char *check_box(request *asked, const robot *r, const robot_body *const *bodies,
+                             const double *low, const double *high, uint32_t swept,
+                             const uint8_t *bytes, size_t size, size_t *at) {
   static const double times[2] = {0, 1};
   double points[2 * NSVCD_VERIFY_JOINTS], half[NSVCD_VERIFY_JOINTS];
   const size_t joints = r->joint_count;
@@ -42,11 +42,11 @@ static const char *check_box(const robot *r, const robot_body *const *bodies, co
   }
   if (!((double)clearance >= nsvcd_verify_travel(parts, meshes, half, swept)))
     return "joints of a box move a point farther than its clearance";
-  return check_free(bodies, parts, clearance, bytes, length, at);
+  return check_free(asked, bodies, parts, clearance, bytes, length, at);
 }
 
 // All values of the joints between two bodies: NULL, or why it is not proven that they never meet.
-static const char *check_never(const robot *r, const robot_body *const *bodies,
+static const char *check_never(request *asked, const robot *r, const robot_body *const *bodies,
                                const uint8_t *bytes, size_t size, size_t *at) {
   const size_t joints = r->joint_count;
   const char *why = NULL;
@@ -71,7 +71,7 @@ static const char *check_never(const robot *r, const robot_body *const *bodies,
     } else if (joint >= joints || !is_between[joint]) {
       why = "a joint is not between the two";
     } else if (code < 128) {
-      why = check_box(r, bodies, box, box + joints, (uint32_t)joint + 1, bytes, size, at);
+      why = check_box(asked, r, bodies, box, box + joints, (uint32_t)joint + 1, bytes, size, at);
       height--;
     } else if (height == MOST_BOXES) {
       why = "it is too deep";
@@ -126,9 +126,9 @@ static int check_pairs(robot *r, request *asked) {
     uint8_t *bytes = (uint8_t *)read_file(path, &size);
     const clock_t start = clock();
     const char *why = "there is no certificate";
-    if (bytes) why = check_never(r, bodies, bytes, size, &at);
+    if (bytes) why = check_never(asked, r, bodies, bytes, size, &at);
     const double taken = 1e6 * (double)(clock() - start) / (double)CLOCKS_PER_SEC;
-    print_line(id, why, "never", bytes ? size : 0, at, taken);
+    print_line(asked, id, why, "never", bytes ? size : 0, at, taken);
     free(bytes);
     good &= !why;
   }

@@ -364,8 +364,9 @@ static const char *cut_allowed(const nsvcd_verify_part *parts, const double *rad
 }
 
 // Is it proven that two parts keep a distance?
-static const char *check_free(const robot_body *const *bodies, const nsvcd_verify_part *parts,
-                              float clearance, const uint8_t *bytes, size_t length, size_t *at) {
+static const char *check_free(request *asked, const robot_body *const *bodies,
+                              const nsvcd_verify_part *parts, float clearance, const uint8_t *bytes,
+                              size_t length, size_t *at) {
   const size_t room = NSVCD_VERIFY_WORKSPACE_BYTES(parts->motion->pieces + 3);
   nsvcd_verify_mover movers[2];
   nsvcd_verify_report report;
@@ -384,11 +385,13 @@ static const char *check_free(const robot_body *const *bodies, const nsvcd_verif
   free(workspace);
   *at += accepted ? length : report.position;
   if (!accepted) return report.reason;
+  note_claim(asked, &movers[0], &movers[1], clearance);
   return report.kind == NSVCD_VERIFY_FREE ? NULL : "a pair is not proven free";
 }
 
-static const char *check_pair(const robot *r, const nsvcd_verify_motion *m, size_t pair,
+static const char *check_pair(const step *s, const nsvcd_verify_motion *m, size_t pair,
                               const uint8_t *bytes, size_t size, size_t *at) {
+  const robot *r = s->r;
   const uint32_t *who = (const uint32_t *)r->pairs.items + 2 * pair;
   const robot_body *bodies[2] = {(const robot_body *)r->bodies.items + who[0],
                                  (const robot_body *)r->bodies.items + who[1]};
@@ -410,7 +413,8 @@ static const char *check_pair(const robot *r, const nsvcd_verify_motion *m, size
   if (*at > size || length > size - *at) return "it ends early";
   if (rest.pieces == 0) return length ? "a pair that may touch all the time has a proof" : NULL;
   for (int k = 0; k < 2; k++) parts[k].motion = &rest;
-  return check_free(bodies, parts, ((const float *)r->kept.items)[pair], bytes, length, at);
+  return check_free(s->asked, bodies, parts, ((const float *)r->kept.items)[pair], bytes, length,
+                    at);
 }
 
 // Adds each body with each obstacle that is on another link; then, what each pair keeps: one with an
@@ -468,19 +472,12 @@ static const char *check_motion(step *s, const uint8_t *bytes, size_t size, size
   if (!why) pair_up(r, s->asked->clearance);
   if (!why && take(bytes, size, at, 4) != r->pairs.count / 2) why = "it is about other pairs";
   for (size_t pair = 0; pair < r->pairs.count / 2 && !why; pair++)
-    why = check_pair(r, &m, pair, bytes, size, at);
+    why = check_pair(s, &m, pair, bytes, size, at);
   if (!why && *at != size) why = "something follows its end";
   memcpy(s->ended, m.points + m.pieces * m.degree * m.joint_count,
          m.joint_count * sizeof *s->ended);
   free(motion);
   return why;
-}
-
-static void print_line(const char *id, const char *why, const char *proven, size_t size, size_t at,
-                       double taken) {
-  if (!why) printf("%s\taccepted\t%s\t%zu\t%.1f\n", id, proven, size, taken);
-  if (why && !size) printf("%s\trefused\t%s\t0\t0\n", id, why);
-  if (why && size) printf("%s\trefused\t%s, at byte %zu\t%zu\t%.1f\n", id, why, at, size, taken);
 }
 
 static int check_plan(step *s) {
@@ -497,7 +494,7 @@ static int check_plan(step *s) {
   if (!bytes) why = "there is no certificate";
   if (!why) why = check_motion(s, bytes, size, &at);
   const double taken = 1e6 * (double)(clock() - start) / (double)CLOCKS_PER_SEC;
-  print_line(words[1], why, "free", bytes ? size : 0, at, taken);
+  print_line(s->asked, words[1], why, "free", bytes ? size : 0, at, taken);
   free(bytes);
   return !why;
 }

@@ -330,7 +330,7 @@ typedef struct nsvcd__memo {
   // segments that have been made intervals
   uint64_t intervals;
   // The normal of the plane between hulls that held last, and its number, 0: none; and the heights
-  // of moving and of fixed patches over it.
+  // of moving and of fixed patches over it. Without a plane these are not even zeros.
   nsvcd__f3 held;
   uint32_t plane;
   nsvcd__height heights[NSVCD__HEIGHTS], fixed_heights[NSVCD__FIXED_HEIGHTS];
@@ -483,8 +483,10 @@ static float nsvcd__errors_of(const nsvcd__proof *p, size_t i, size_t j) {
 
 // Turns to a motion. None of its arcs is known, nor any pose.
 static void nsvcd__arcs_begin(nsvcd__arcs *arcs, nsvcd__motion *motion) {
-  memset(arcs, 0, sizeof *arcs);
   arcs->motion = motion;
+  arcs->arc.ticks = 0;
+  arcs->next = 0;
+  for (size_t n = 0; n < NSVCD__KNOWN_POSES; n++) arcs->poses[n].ticks = 0;
 }
 
 // Answers in float cannot tell things apart that are nearer to each other than this.

@@ -72,6 +72,9 @@
 #define NSVCD__FINER 2
 // Segments that are searched together where the first contact is sought.
 #define NSVCD__IN_ORDER 4
+// Segments, at most, of a motion whose body, if it is one group, is searched in the order in which
+// it comes to patches.
+#define NSVCD__FEW_SEGMENTS 4
 // If that exhausts its budget, the motion is proven part by part: the length of the first one, in
 // segments; and the budget of a part besides eight times that of the part before.
 #define NSVCD__FIRST_PART 0.0625

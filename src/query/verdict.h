@@ -32,7 +32,8 @@ static void nsvcd__restart(nsvcd__solver *w, nsvcd__motion *motion) {
   p->shared = w->blocks.window = 0;
   p->push.too_deep = w->blocks.has_block = 0;
   p->separating = nsvcd__d3_of(0, 0, 0);
-  memset(&w->memo, 0, sizeof w->memo);
+  w->memo.intervals = w->memo.plane = 0;
+  w->memo.held = nsvcd__f3_of(0, 0, 0);
 }
 
 // Searches any motion, from scratch.

@@ -112,15 +112,18 @@ static nsvcd__v3 nsvcd__v_shorter_turn(nsvcd__vquat a, nsvcd__vquat b, nsvcd__v 
 static void nsvcd__keyframes_read(const nsvcd__motion *m, const uint32_t *ticks, size_t count,
                                   nsvcd__keyframes *out) {
   nsvcd__world_pose fixed = {{0, 0, 0, 1}, nsvcd__d3_widen(m->fixed_position)};
+  nsvcd__world_pose moving = fixed;
+  nsvcd__f3 offset = {0, 0, 0};
   for (size_t l = 0; l < count; l++) {
-    const nsvcd__world_pose moving = nsvcd__track_pose(&m->moving, ticks[l]);
-    nsvcd__quat_put(moving.rotation, out->moving + l, NSVCD__ENDS);
-    if (m->fixed_moves) {
-      fixed = nsvcd__track_pose(&m->fixed, ticks[l]);
-      nsvcd__quat_put(fixed.rotation, out->fixed + l, NSVCD__ENDS);
+    // segments of no length have the pose before
+    if (l == 0 || ticks[l] != ticks[l - 1]) {
+      moving = nsvcd__track_pose(&m->moving, ticks[l]);
+      if (m->fixed_moves) fixed = nsvcd__track_pose(&m->fixed, ticks[l]);
+      offset = nsvcd__d3_narrow(nsvcd__d3_sub(moving.position, fixed.position));
     }
-    const nsvcd__d3 offset = nsvcd__d3_sub(moving.position, fixed.position);
-    nsvcd__f3_put(nsvcd__d3_narrow(offset), out->offset + l, NSVCD__ENDS);
+    nsvcd__quat_put(moving.rotation, out->moving + l, NSVCD__ENDS);
+    nsvcd__f3_put(offset, out->offset + l, NSVCD__ENDS);
+    if (m->fixed_moves) nsvcd__quat_put(fixed.rotation, out->fixed + l, NSVCD__ENDS);
   }
 }
 

@@ -3,34 +3,68 @@
 #include "hulls.h"
 
 #ifndef NSVCD_NO_PROOF
+// Point i of a patch.
+static nsvcd__f3 nsvcd__point_of(const nsvcd__geometry *f, size_t patch,
+                                 nsvcd__patch_points points, size_t i) {
+  if (i >= points.stored) return nsvcd__f3_load(nsvcd__position_of(f, patch, points, i));
+  const nsvcd__vertices stored = nsvcd__vertices_of(f, patch);
+  const nsvcd__f3 centre = nsvcd__patch_centre(f, patch);
+  const float step = f->steps[patch];
+  return nsvcd__f3_of(centre.x + step * (float)stored.x[i],
+                      centre.y + step * (float)stored.y[i],
+                      centre.z + step * (float)stored.z[i]);
+}
+
+// All points of a patch that has few. Corners name them in no order, and which kind each one is
+// would be mispredicted.
+#define NSVCD__FEW_POINTS 48
+static void nsvcd__few_points(const nsvcd__geometry *f, size_t patch,
+                              nsvcd__patch_points points, float (*out)[NSVCD__FEW_POINTS]) {
+  const nsvcd__vertices stored = nsvcd__vertices_of(f, patch);
+  const nsvcd__f3 centre = nsvcd__patch_centre(f, patch);
+  const float step = f->steps[patch];
+  const size_t references = points.stored + points.own;
+  for (size_t i = 0; i < points.stored; i++) {
+    out[0][i] = centre.x + step * (float)stored.x[i];
+    out[1][i] = centre.y + step * (float)stored.y[i];
+    out[2][i] = centre.z + step * (float)stored.z[i];
+  }
+  const float *own = f->positions + 3 * (size_t)f->first_own[patch];
+  for (size_t i = points.stored; i < references; i++, own += 3) {
+    for (size_t axis = 0; axis < 3; axis++) out[axis][i] = own[axis];
+  }
+  for (size_t i = references; i < points.all; i++) {
+    const size_t at = f->first_reference[patch] + i - references;
+    const float *other = f->positions + 3 * nsvcd__reference_at(f, at);
+    for (size_t axis = 0; axis < 3; axis++) out[axis][i] = other[axis];
+  }
+}
+
 // Loads entries first .. first + count - 1 of a patch, at most 16; the last one is repeated. Stored
 // points are off by no more than a quantization error, and what NSVCD__ROUNDING allows.
 static void nsvcd__block_load(const nsvcd__geometry *f, size_t patch, size_t first,
                               size_t count, nsvcd__block *out) {
   const nsvcd__patch_points points = nsvcd__points_of(f, patch);
-  const nsvcd__vertices stored = nsvcd__vertices_of(f, patch);
-  const nsvcd__f3 centre = nsvcd__patch_centre(f, patch);
-  const float step = f->steps[patch];
   const size_t bytes = nsvcd__corner_bytes(points.all);
   const unsigned char *codes =
       f->entries + f->first_byte[patch] + 3 * bytes * (first - f->first_triangle[patch]);
   out->patch = patch;
   out->first = first;
   out->count = count;
+  const int has_table = points.all <= NSVCD__FEW_POINTS;
+  float table[3][NSVCD__FEW_POINTS];
+  if (has_table) nsvcd__few_points(f, patch, points, table);
   for (size_t k = 0; k < 3; k++) {
     float(*to)[NSVCD__LANES] = out->corners[k];
-    for (size_t l = 0; l < count; l++) {
+    for (size_t l = 0; l < count && has_table; l++) {
+      const size_t i = codes[3 * l + k];
+      for (size_t axis = 0; axis < 3; axis++) to[axis][l] = table[axis][i];
+    }
+    for (size_t l = has_table ? count : 0; l < count; l++) {
       const size_t n = 3 * l + k;
       uint16_t i = codes[n];
       if (bytes == 2) memcpy(&i, codes + 2 * n, sizeof i);
-      if (i < points.stored) {
-        to[0][l] = centre.x + step * (float)stored.x[i];
-        to[1][l] = centre.y + step * (float)stored.y[i];
-        to[2][l] = centre.z + step * (float)stored.z[i];
-        continue;
-      }
-      const float *position = nsvcd__position_of(f, patch, points, i);
-      nsvcd__lane_set(nsvcd__f3_load(position), to, l);
+      nsvcd__lane_set(nsvcd__point_of(f, patch, points, i), to, l);
     }
     for (size_t l = count; l < NSVCD__LANES; l++)
       nsvcd__lane_set(nsvcd__lane_of(to, count - 1), to, l);
@@ -247,9 +281,18 @@ static NSVCD__NOINLINE uint32_t nsvcd__row_left(nsvcd__solver *w, size_t l,
   nsvcd__block *block = &w->blocks.moving;
   const nsvcd__box box = {nsvcd__lane_of(block->low, l), nsvcd__lane_of(block->high, l)};
   uint32_t met = nsvcd__lanes_near(fixed, box, margin);
+  // of a segment (a, b, b) or a point the normals of all edges but one, or two, are those of others
+  const nsvcd__f3 a = nsvcd__lane_of(block->corners[0], l);
+  const nsvcd__f3 b = nsvcd__lane_of(block->corners[1], l);
+  const nsvcd__f3 c = nsvcd__lane_of(block->corners[2], l);
+  const nsvcd__f3 ab = nsvcd__f3_sub(b, a);
+  const nsvcd__f3 bc = nsvcd__f3_sub(c, b);
+  const int is_segment = !(nsvcd__f3_dot(bc, bc) > 0);
+  const int is_point = is_segment && !(nsvcd__f3_dot(ab, ab) > 0);
+  const size_t normals = is_point ? 6 : is_segment ? 9 : NSVCD__NORMALS;
   // the last plane: see nsvcd__lanes_left_by_last
-  for (size_t k = w->p.goal.clearance > 0 ? NSVCD__LAST_NORMAL : 1; met && k < NSVCD__NORMALS;
-       k++)
+  for (size_t k = w->p.goal.clearance > 0 ? NSVCD__LAST_NORMAL : 1; met && k < normals;
+       k += k == 1 && is_segment ? 2 : 1)
     met = nsvcd__left_by_normal(w, l, fixed, k, margin, met);
   return met;
 }

@@ -82,10 +82,10 @@ static uint32_t nsvcd__lanes_on_ray(nsvcd__block *block, const nsvcd__ray *ray, 
       const nsvcd__v volume = nsvcd__v3_dot(across, to_corner);
       least = nsvcd__v_min(least, volume);
       most = nsvcd__v_max(most, volume);
-      longest = nsvcd__v_max(longest, nsvcd__v3_norm(across));
+      longest = nsvcd__v_max(longest, nsvcd__v3_dot(across, across));
     }
     const nsvcd__v allowed =
-        nsvcd__v_fma(nsvcd__v_set(margin), longest, nsvcd__v_set(rounding));
+        nsvcd__v_fma(nsvcd__v_set(margin), nsvcd__v_sqrt(longest), nsvcd__v_set(rounding));
     missed |= (nsvcd__v_lt(least, nsvcd__v_negate(allowed)) & nsvcd__v_lt(allowed, most)) << l;
   }
   return nsvcd__block_lanes(block) & ~missed;
@@ -209,12 +209,30 @@ static int nsvcd__surface_is_near(nsvcd__solver *w, const nsvcd__geometry *f, ns
   return 0;
 }
 
+// A direction turned towards the nearest of those faces of the body's box that it leads to: a ray
+// that leaves sooner meets less.
+static nsvcd__d3 nsvcd__way_out(const nsvcd__geometry *f, nsvcd__d3 point,
+                                nsvcd__d3 direction) {
+  const double from[3] = {point.x, point.y, point.z};
+  double along[3] = {direction.x, direction.y, direction.z};
+  double least = HUGE_VAL;
+  size_t nearest = 0;
+  for (size_t k = 0; k < 3; k++) {
+    const double face = (double)f->box[along[k] > 0 ? 3 + k : k];
+    const double room = fabs(face - from[k]);
+    if (room < least) nearest = k;
+    least = nsvcd__min(least, room);
+  }
+  along[nearest] *= 3;
+  return nsvcd__d3_of(along[0], along[1], along[2]);
+}
+
 // Does the body enclose a point of its frame, farther from its surface than rounding? Rays tell, in
 // directions that no mesh is likely to be aligned with. The first one goes to the side of the body
-// that the point is on. One ray is enough where all surfaces are closed. Of what is nearly a solid,
-// the majority of the rays tells whether its winding number is more than a half: then the point is
-// not known to be outside. (Difference from Jacobson 2013: rays, not a sum of solid angles.) unit:
-// of the body's frame.
+// that the point is on, and more to the face of its box that is near there. One ray is enough where
+// all surfaces are closed. Of what is nearly a solid, the majority of the rays tells whether its
+// winding number is more than a half: then the point is not known to be outside. (Difference from
+// Jacobson 2013: rays, not a sum of solid angles.) unit: of the body's frame.
 static int nsvcd__is_enclosed(nsvcd__solver *w, const nsvcd__geometry *f, double unit,
                               nsvcd__d3 point) {
   nsvcd__proof *p = &w->p;
@@ -241,6 +259,7 @@ static int nsvcd__is_enclosed(nsvcd__solver *w, const nsvcd__geometry *f, double
       return 0;
     }
     ray.direction = nsvcd__d3_of(d[0], d[1], d[2]);
+    if (n == 0) ray.direction = nsvcd__way_out(f, point, ray.direction);
     ray.direction = nsvcd__d3_scale(ray.direction, 1 / nsvcd__d3_norm(ray.direction));
     const nsvcd__crossings sum = nsvcd__cross_all(w, f, &ray);
     if (sum.unclear) continue;
@@ -336,7 +355,8 @@ static int nsvcd__contains_seeds(nsvcd__solver *w, const nsvcd__enclosure *e, si
 static int nsvcd__contains_any(nsvcd__solver *w, const nsvcd__enclosure *e) {
   const nsvcd_body *inner = e->inner->body;
   const nsvcd_body *outer = e->outer->body;
-  if (outer->open) return 0;
+  // nor does a single triangle, segment or point enclose anything
+  if (outer->open || outer->triangles < 2) return 0;
   const int is_one = e->inner->counts->components == 1 && e->outer->kind_bits == 1;
   if (is_one && nsvcd__sticks_out(e->inner, &e->rounded, e->scale, outer)) return 0;
   if (e->inner->counts->components <= NSVCD__LANES)

@@ -84,6 +84,24 @@ static nsvcd__f3 nsvcd__f3_towards(nsvcd__f3 a, nsvcd__f3 b) {
   return nsvcd__f3_scale(a, nsvcd__f3_dot(a, b) < 0 ? -1.0f : 1.0f);
 }
 
+// Remembers a plane that held. No heights are known over the first one.
+static void nsvcd__hold_plane(nsvcd__memo *memo, nsvcd__f3 normal) {
+  if (!memo->plane) {
+    memset(memo->heights, 0, sizeof memo->heights);
+    memset(memo->fixed_heights, 0, sizeof memo->fixed_heights);
+  }
+  memo->held = normal;
+  memo->plane++;
+}
+
+// The point nearest to 0 of a chord.
+static nsvcd__f3 nsvcd__f3_nearest(nsvcd__f3 start, nsvcd__f3 travel) {
+  const float square = nsvcd__f3_dot(travel, travel);
+  const float fraction = square > 0 ? -nsvcd__f3_dot(start, travel) / square : 0;
+  const float clamped = fraction > 0 ? fminf(fraction, 1) : 0;
+  return nsvcd__f3_add(start, nsvcd__f3_scale(travel, clamped));
+}
+
 // Is there a plane between two patches over the whole interval? A direction separates them if the
 // gap between the hulls along it is more than the margin and the deviation. First guesses: the last
 // plane that held, the slabs' normals, the line of centres. Then Gilbert's iteration (1966) from
@@ -109,10 +127,12 @@ static NSVCD__NOINLINE int nsvcd__hulls_are_apart(nsvcd__solver *w, size_t i, si
   const nsvcd__slab moving = nsvcd__slab_at(f->slabs, f->body->padded, i);
   const nsvcd__slab fixed = nsvcd__slab_at(g->slabs, g->body->padded, j);
   const nsvcd__f3 centre = nsvcd__patch_centre(f, i);
-  const nsvcd__f3 both =
-      nsvcd__f3_add(nsvcd__f3_transform(start, centre), nsvcd__f3_transform(end, centre));
-  const nsvcd__f3 middle = nsvcd__f3_scale(both, 0.5f);
-  const nsvcd__f3 line = nsvcd__f3_sub(middle, nsvcd__patch_centre(g, j));
+  // between the centres when they are nearest
+  const nsvcd__f3 from =
+      nsvcd__f3_sub(nsvcd__f3_transform(start, centre), nsvcd__patch_centre(g, j));
+  const nsvcd__f3 to =
+      nsvcd__f3_sub(nsvcd__f3_transform(end, centre), nsvcd__patch_centre(g, j));
+  const nsvcd__f3 line = nsvcd__f3_nearest(from, nsvcd__f3_sub(to, from));
   const nsvcd__f3 turned = nsvcd__mat3_apply(&start->rotation, moving.normal);
   const nsvcd__f3 guesses[NSVCD__GUESSES] = {w->memo.held,
                                              nsvcd__f3_towards(fixed.normal, line),
@@ -120,23 +140,21 @@ static NSVCD__NOINLINE int nsvcd__hulls_are_apart(nsvcd__solver *w, size_t i, si
   nsvcd__f3 nearest = {0, 0, 0};
   p->work++;
   // where all that is near is listed, most hulls are near, and their triangles cost no more
-  const size_t steps = p->goal.collects == NSVCD__LISTING ? 0 : NSVCD__PLANE_STEPS;
+  // nor do those that a point meets
+  const int is_brief = p->goal.collects == NSVCD__LISTING || f->hull_counts[i] == 1;
+  const size_t steps = is_brief ? 0 : NSVCD__PLANE_STEPS;
   for (size_t step = 0; step < NSVCD__GUESSES + steps; step++) {
     const nsvcd__f3 normal = step < NSVCD__GUESSES ? guesses[step] : nearest;
     const nsvcd__support found = nsvcd__support_along(w, normal);
     const float length = nsvcd__f3_norm(normal);
     if (found.gap > 0 &&
         found.gap > margin * length + nsvcd__deviation_of(over, normal, arm)) {
-      w->memo.held = normal;
-      w->memo.plane++;
+      nsvcd__hold_plane(&w->memo, normal);
       return 1;
     }
     if (step + 1 < NSVCD__GUESSES) continue;
     const nsvcd__f3 toward = nsvcd__f3_sub(found.difference, nearest);
-    const float square = nsvcd__f3_dot(toward, toward);
-    float fraction = square > 0 ? -nsvcd__f3_dot(nearest, toward) / square : 0;
-    fraction = fraction > 0 ? fminf(fraction, 1) : 0;
-    const nsvcd__f3 nearer = nsvcd__f3_add(nearest, nsvcd__f3_scale(toward, fraction));
+    const nsvcd__f3 nearer = nsvcd__f3_nearest(nearest, toward);
     nearest = step < NSVCD__GUESSES ? found.difference : nearer;
     // the hulls come this near
     if (nsvcd__f3_dot(nearest, nearest) <= margin * margin) return 0;

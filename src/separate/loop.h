@@ -2,72 +2,9 @@
 // contact that answers the question, or the budget exhausted.
 #pragma once
 #include "containment.h"
-#include "slabs.h"
-#include "patch_pairs.h"
+#include "in_order.h"
 
 #ifndef NSVCD_NO_PROOF
-// Segments from .. to - 1, as bits.
-static uint64_t nsvcd__segments_in(size_t from, size_t to) {
-  const uint64_t before_end = to < 64 ? ((uint64_t)1 << to) - 1 : ~(uint64_t)0;
-  return before_end & ~(((uint64_t)1 << from) - 1);
-}
-
-// The segments being searched that still matter.
-static uint64_t nsvcd__segments_that_matter(const nsvcd__proof *p, const nsvcd__search *q) {
-  size_t s = q->segments;
-  if (!(p->goal.first > 0) || !p->known.has_contact) return q->wanted;
-  while (s > 0 && !nsvcd__matters(p, q, s - 1)) s--;
-  return q->wanted & nsvcd__segments_in(0, s);
-}
-
-// Adds the patch pairs of moving group g and fixed patch j in the segments *left, and clears
-// these, as long as there is room for 16 more.
-static void nsvcd__add_patch_pairs(nsvcd__solver *w, const nsvcd__search *q, size_t g,
-                                   size_t j, uint64_t *left) {
-  nsvcd__proof *p = &w->p;
-  const nsvcd_body *moving = p->moving.body;
-  const nsvcd_body *fixed = p->fixed.body;
-  const nsvcd__f3 centre = nsvcd__patch_centre(&p->fixed, j);
-  const float radius = nsvcd__body_r(fixed)[j];
-  const float *own = nsvcd__body_r(moving) + NSVCD__GROUP * g;
-  *left &= nsvcd__segments_that_matter(p, q);
-  for (; *left && w->fresh_count + NSVCD__GROUP <= NSVCD__FRESH; *left &= *left - 1) {
-    const size_t s = nsvcd__low_bit(*left);
-    const nsvcd__chords *c = &q->members[s];
-    float squares[NSVCD__LANES];
-    float fraction[NSVCD__LANES];
-    uint32_t met = 0;
-    NSVCD__EACH_SLICE(l) {
-      const nsvcd__v3 travel = nsvcd__chords_travel(c, l);
-      const nsvcd__v3 d = nsvcd__v3_sub(nsvcd__chords_start(c, l), nsvcd__v3_set(centre));
-      const nsvcd__v tau = nsvcd__nearest_at(d, travel, nsvcd__v_load(c->inverse + l));
-      const nsvcd__v3 closest = nsvcd__v3_fma(tau, travel, d);
-      const nsvcd__v square = nsvcd__v3_dot(closest, closest);
-      const nsvcd__v sum = nsvcd__v_plus(nsvcd__v_load(c->radius + l), radius);
-      met |= nsvcd__v_le(square, nsvcd__v_signed_square(sum)) << l;
-      nsvcd__v_store(squares + l, square);
-      nsvcd__v_store(fraction + l, tau);
-    }
-    if (!met) continue;
-    met = nsvcd__slabs_meet(p, nsvcd__segment_interval(w, q, s), q, g, j, s, met);
-    for (; met; met &= met - 1) {
-      const size_t l = nsvcd__low_bit(met);
-      const size_t i = NSVCD__GROUP * g + l;
-      if (p->moving.hull_counts[i] == 0) continue;
-      const float radii = q->scale * own[l] + radius;
-      const float depth = 1 - sqrtf(squares[l]) / (radii > 1e-30f ? radii : 1e-30f);
-      const nsvcd__patch_pair pair = {(uint16_t)i, (uint16_t)j, (uint16_t)s,
-                                      0,           depth,       fraction[l]};
-      w->fresh[w->fresh_count++] = pair;
-    }
-  }
-}
-
-// Processes the patch pairs that the search has found since.
-static nsvcd__outcome nsvcd__take_patch_pairs(nsvcd__solver *w, nsvcd__search *q) {
-  return w->p.goal.collects ? nsvcd__collect_contacts(w, q) : nsvcd__sift_patch_pairs(w, q);
-}
-
 // THE LOOP: point 2 of the theorem. Spheres and slabs separate groups of a tile of the moving body
 // and one of the fixed body, and then patches of the groups left. What is left of these are patch
 // pairs, for nsvcd__sift_patch_pairs and nsvcd__resolve_patch_pairs. In the end each pair of
@@ -120,6 +57,8 @@ static nsvcd__outcome nsvcd__prove_tiles(nsvcd__solver *w, nsvcd__search *q) {
   const size_t all = q->segments;
   const size_t few = p->goal.first > 0 ? NSVCD__IN_ORDER : all;
   nsvcd__outcome outcome = NSVCD__DONE;
+  if (nsvcd__body_groups(moving) == 1 && all <= NSVCD__FEW_SEGMENTS && !p->goal.collects)
+    return nsvcd__prove_all_in_order(w, q);
   (void)nsvcd__search_begin(moving, fixed, nsvcd__segments_in(0, all), q);
   do {
     for (size_t s = 0; s < all && outcome == NSVCD__DONE; s += few) {

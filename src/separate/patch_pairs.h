@@ -65,7 +65,8 @@ static nsvcd__outcome nsvcd__resolve_row(nsvcd__solver *w, size_t l, nsvcd__bloc
     const size_t b = fixed->first + nsvcd__low_bit(met);
     const nsvcd__triangle_pair pair = nsvcd__pair_of(p, i, j, a, b);
     const nsvcd__outcome one = nsvcd__resolve_pair(p, &pair, u0, u1);
-    if (one != NSVCD__DONE) return one;
+    // where the question shrank, the pair is resolved for what is left of it
+    if (one != NSVCD__DONE && one != NSVCD__SHRUNK) return one;
     if (p->parts > patience) return NSVCD__TOO_LONG;
     p->shared = nsvcd__d3_distance2(p->separating, before) > 0 ? 0 : p->shared + 1;
   }
@@ -254,15 +255,19 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__sift_patch_pairs(nsvcd__solver *w,
                                                               nsvcd__search *q) {
   nsvcd__proof *p = &w->p;
   const int tells_more = p->goal.measure > 0 || p->goal.first > 0;
+  // the first contact of a straight motion follows from its triangles
+  const int follows = p->goal.first > 0 && p->arcs.motion->ticks == 1 &&
+                      nsvcd__is_straight(nsvcd__arc_at(&p->arcs, 0));
   size_t count = 0;
   nsvcd__clip_segment(w, q);
+  const uint32_t plane = w->memo.plane;
   for (size_t n = 0; n < w->fresh_count; n++) {
     if (nsvcd__held_again(w, q, &w->fresh[n])) continue;
     w->fresh[count++] = w->fresh[n];
   }
   w->fresh_count = 0;
   nsvcd__sort_patch_pairs(p, w->fresh, count);
-  if (count > 0 && w->fresh[0].depth > NSVCD__DEEP &&
+  if (count > 0 && w->fresh[0].depth > NSVCD__DEEP && !follows &&
       nsvcd__seek_in_patch_pair(w, q, &w->fresh[0]) == NSVCD__ANSWERED)
     return NSVCD__ANSWERED;
 
@@ -271,7 +276,8 @@ static NSVCD__NOINLINE nsvcd__outcome nsvcd__sift_patch_pairs(nsvcd__solver *w,
     if (nsvcd__check_budget(p)) return NSVCD__EXHAUSTED;
     nsvcd__clip_segment(w, q);
     if (!nsvcd__matters(p, q, patches->segment)) continue;
-    if (nsvcd__held_again(w, q, patches)) continue;
+    // by a plane found since
+    if (w->memo.plane != plane && nsvcd__held_again(w, q, patches)) continue;
     if (nsvcd__is_separated(w, q, patches)) continue;
     double u;
     const uint32_t first = nsvcd__arc_of(p->arcs.motion, q->begin[patches->segment], &u);
@@ -325,8 +331,7 @@ static nsvcd__outcome nsvcd__collect_contacts(nsvcd__solver *w, const nsvcd__sea
       const uint32_t before = p->near_list.count;
       (void)nsvcd__find_witness(w, patches->moving, patches->fixed, 0, 0);
       if (p->near_list.count > before) {
-        w->memo.held = nsvcd__f3_round(p->separating);
-        w->memo.plane++;
+        nsvcd__hold_plane(&w->memo, nsvcd__f3_round(p->separating));
       }
     }
   }

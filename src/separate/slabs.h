@@ -108,6 +108,8 @@ typedef struct nsvcd__v_approach {
   nsvcd__v3 at_start, at_end;
   // the mean of the moving slab's normals at both ends, and half their difference
   nsvcd__v3 mean, turned;
+  // does any point leave its chord?
+  int may_bend;
   // of the moving body
   nsvcd__v scale;
   nsvcd__v_interval over;
@@ -121,6 +123,7 @@ typedef struct nsvcd__v_approach {
 // Along a plane's normal: the deviation of a moving point, and the clearance.
 NSVCD__INLINE nsvcd__v nsvcd__v_off(const nsvcd__v_approach *a, nsvcd__v3 plane) {
   const nsvcd__v allowed = nsvcd__v_plus(a->over.rounding, a->clearance);
+  if (!a->may_bend) return allowed;
   return nsvcd__v_add(allowed, nsvcd__v_deviation(&a->over, plane, a->radius));
 }
 
@@ -143,6 +146,8 @@ NSVCD__INLINE uint32_t nsvcd__v_separate(const nsvcd__v_approach *a, nsvcd__v3 p
 NSVCD__INLINE uint32_t nsvcd__v_separate_by_fixed(const nsvcd__v_approach *a) {
   const nsvcd__v_range fixed = {a->fixed.low, a->fixed.high};
   const nsvcd__v_range start = nsvcd__v_slab_range(&a->moving, a->at_start);
+  if (!a->may_bend)
+    return nsvcd__v_separate(a, a->fixed.normal, start, start, fixed, a->fixed_off);
   const nsvcd__v_range end = nsvcd__v_slab_range(&a->moving, a->at_end);
   return nsvcd__v_separate(a, a->fixed.normal, start, end, fixed, a->fixed_off);
 }
@@ -173,6 +178,7 @@ static uint32_t nsvcd__slabs_meet(const nsvcd__proof *p, const nsvcd__interval *
   a.fixed = nsvcd__v_slab_set(&fixed);
   a.at_start = nsvcd__v3_set(nsvcd__mat3_apply_transpose(from, fixed.normal));
   a.at_end = nsvcd__v3_set(nsvcd__mat3_apply_transpose(to, fixed.normal));
+  a.may_bend = nsvcd__may_bend(over);
   a.scale = nsvcd__v_set(p->arcs.motion->scale);
   a.over = nsvcd__v_interval_set(over);
   a.clearance = nsvcd__clearance(&p->goal);
@@ -209,6 +215,7 @@ static NSVCD__NOINLINE void nsvcd__separate_groups(const nsvcd__proof *p, nsvcd_
       nsvcd__slab_at(p->moving.group_slabs, nsvcd__group_slots(moving->padded), g);
   nsvcd__v_approach a;
   a.moving = nsvcd__v_slab_set(&own);
+  a.may_bend = 1;  // in some segment
   a.scale = nsvcd__v_set(q->scale);
   a.clearance = nsvcd__clearance(&p->goal);
   a.radius = nsvcd__group_extent(moving, g);
@@ -245,5 +252,43 @@ static NSVCD__NOINLINE void nsvcd__separate_groups(const nsvcd__proof *p, nsvcd_
     }
     if (!*met) q->waiting &= ~((uint32_t)1 << at);
   }
+}
+// The way of the moving group in a segment, up to the end of what matters.
+typedef struct nsvcd__way {
+  size_t segment;
+  double start, length;  // ticks
+  // the chord of its sphere
+  nsvcd__f3 from, travel;
+  float inverse, radius;
+  // its slab, against 16 others
+  nsvcd__v_approach slabs;
+  nsvcd__vmat3 at_start, at_end;
+} nsvcd__way;
+
+// Of 16 spheres of the fixed body, those `met` whose slabs no plane normal to one separates from
+// that of the moving group: groups, if `level` is 1, or patches, 0, from number `first` on.
+static uint32_t nsvcd__slabs_on_way(const nsvcd__solver *w, nsvcd__way *way,
+                                    nsvcd__spheres spheres, size_t level, size_t first,
+                                    uint32_t met) {
+  const nsvcd__geometry *f = &w->p.fixed;
+  const float *slabs = (level > 0 ? f->group_slabs : f->slabs) + first;
+  const size_t padded = f->body->padded;
+  const size_t stride = level > 0 ? nsvcd__group_slots(padded) : padded;
+  const int is_point = w->p.moving.body->patches == 1 && w->p.moving.hull_counts[0] == 1;
+  nsvcd__v_approach *a = &way->slabs;
+  uint32_t left = 0;
+  NSVCD__EACH_SLICE(l) {
+    uint32_t wanted = met >> l & NSVCD__SLICE_MASK;
+    if (!wanted) continue;
+    a->from = nsvcd__v3_sub(nsvcd__v3_set(way->from), nsvcd__v3_centres(spheres, l));
+    a->fixed = nsvcd__v_slab_load(slabs + l, stride);
+    a->at_start = nsvcd__vmat3_apply_transpose(way->at_start, a->fixed.normal);
+    a->at_end = nsvcd__vmat3_apply_transpose(way->at_end, a->fixed.normal);
+    a->fixed_off = nsvcd__v_off(a, a->fixed.normal);
+    wanted &= ~nsvcd__v_separate_by_fixed(a);
+    if (wanted && !is_point) wanted &= ~nsvcd__v_separate_by_moving(a);
+    left |= wanted << l;
+  }
+  return left;
 }
 #endif  // NSVCD_NO_PROOF

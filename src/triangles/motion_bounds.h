@@ -33,12 +33,12 @@ static const nsvcd__interval *nsvcd__segment_interval(nsvcd__solver *w, const ns
 static nsvcd__interval nsvcd__interval_of_arc(nsvcd__proof *p, uint32_t first, double u0,
                                               double u1) {
   const nsvcd__arc *arc = nsvcd__arc_at(&p->arcs, first);
-  const nsvcd__dtransform start = nsvcd__dtransform_at(arc, u0);
-  const nsvcd__dtransform end = nsvcd__dtransform_at(arc, u1);
+  const nsvcd__dtransform *start = nsvcd__arc_pose(&p->arcs, u0);
+  const nsvcd__dtransform *end = nsvcd__arc_pose(&p->arcs, u1);
   const double square = (u1 - u0) * (u1 - u0);
   nsvcd__interval out;
-  out.start = nsvcd__transform_of(&start);
-  out.end = nsvcd__transform_of(&end);
+  out.start = nsvcd__transform_of(start);
+  out.end = nsvcd__transform_of(end);
   const float extent_start = nsvcd__f3_norm(out.start.position);
   const float extent = extent_start + nsvcd__f3_norm(out.end.position);
   out.bend = (float)(square * (arc->bend + arc->twist) * 1.000001);
@@ -50,6 +50,11 @@ static nsvcd__interval nsvcd__interval_of_arc(nsvcd__proof *p, uint32_t first, d
   const double wavers = square * (arc->bend * arc->waver + arc->twist);
   out.bend_along_axis = fminf((float)wavers + 1e-6f * out.bend, out.bend);
   return out;
+}
+
+// Does any point leave its chord?
+static int nsvcd__may_bend(const nsvcd__interval *over) {
+  return over->bend > 0 || over->origin_bend > 0;
 }
 
 // The axis in the moving body's frame, unit.
@@ -74,9 +79,11 @@ static nsvcd__arm nsvcd__arm_of(nsvcd__f3 centre, float radius, nsvcd__f3 axis) 
   return out;
 }
 
-// Of a patch's pieces.
+// Of a patch's pieces; none where nothing bends.
 static nsvcd__arm nsvcd__patch_arm(const nsvcd__geometry *f, size_t patch,
                                    const nsvcd__interval *over) {
+  const nsvcd__arm none = {0, 0};
+  if (!nsvcd__may_bend(over)) return none;
   const float radius = nsvcd__body_r(f->body)[patch];
   return nsvcd__arm_of(nsvcd__patch_centre(f, patch), radius, nsvcd__own_axis(over));
 }
@@ -97,6 +104,7 @@ static float nsvcd__bend_of(const nsvcd__interval *over, nsvcd__arm arm) {
 //   |n.D x| <= |n.axis| |D^T axis| |x| + |n x axis| |D x|
 // and |n.d| is bounded in the same way, or with the heading in place of the axis.
 static float nsvcd__deviation_of(const nsvcd__interval *over, nsvcd__f3 n, nsvcd__arm arm) {
+  if (!nsvcd__may_bend(over)) return 0;
   const float along = fabsf(nsvcd__f3_dot(n, over->axis));
   const float across = nsvcd__f3_norm(nsvcd__f3_cross(n, over->axis));
   const float ahead = fabsf(nsvcd__f3_dot(n, over->heading));

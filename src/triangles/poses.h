@@ -33,6 +33,11 @@ static nsvcd__slerp nsvcd__slerp_in(const nsvcd__track *track, uint32_t first, u
   return out;
 }
 
+// Does the moving body turn, or the fixed one move? If not, the rotation stays that at the start.
+static int nsvcd__turns(const nsvcd__arc *arc) {
+  return arc->turn > 0 || arc->fixed_moves;
+}
+
 // The arc that begins at the keyframe `first`.
 static const nsvcd__arc *nsvcd__arc_at(nsvcd__arcs *arcs, uint32_t first) {
   const nsvcd__motion *m = arcs->motion;
@@ -81,6 +86,7 @@ static const nsvcd__arc *nsvcd__arc_at(nsvcd__arcs *arcs, uint32_t first) {
   const nsvcd__dmat3 moving = nsvcd__dmat3_of(nsvcd__slerp_at(&arc->moving, 0));
   const double arm = nsvcd__d3_norm(arc->pivot);
   arc->turn = nsvcd__d3_norm(turn);
+  if (!nsvcd__turns(arc)) arc->moving.start = nsvcd__slerp_at(&arc->moving, 0);
   arc->speed = nsvcd__d3_norm(arc->moved) + swing + arc->turn * arm;
   arc->twist = 0.1250001 * arc->scale * twist;
   arc->origin_bend = 0.1250001 * (2 * across + angle * swing);
@@ -100,7 +106,7 @@ static int nsvcd__is_straight(const nsvcd__arc *arc) {
 // The true pose at fraction u of the arc, as the fixed body sees it. Its rotation is times the
 // moving body's scale.
 static nsvcd__dtransform nsvcd__dtransform_at(const nsvcd__arc *arc, double u) {
-  nsvcd__dquat q = nsvcd__slerp_at(&arc->moving, u);
+  nsvcd__dquat q = nsvcd__turns(arc) ? nsvcd__slerp_at(&arc->moving, u) : arc->moving.start;
   nsvcd__dtransform at;
   at.position = nsvcd__d3_add(arc->from, nsvcd__d3_scale(arc->moved, u));
   if (arc->fixed_moves) {
@@ -127,9 +133,11 @@ static const nsvcd__dtransform *nsvcd__arc_pose(nsvcd__arcs *arcs, double u) {
     if (known->arc == arc->first && known->ticks == arc->ticks && known->u == u) break;
   }
   if (n == NSVCD__KNOWN_POSES) {
-    const nsvcd__known_pose made = {arc->first, arc->ticks, u, nsvcd__dtransform_at(arc, u)};
     n = next;
-    arcs->poses[n] = made;
+    arcs->poses[n].transform = nsvcd__dtransform_at(arc, u);
+    arcs->poses[n].arc = arc->first;
+    arcs->poses[n].ticks = arc->ticks;
+    arcs->poses[n].u = u;
   }
   if (n == next) arcs->next = (n + 1) % NSVCD__KNOWN_POSES;
   return &arcs->poses[n].transform;

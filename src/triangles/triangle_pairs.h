@@ -36,6 +36,7 @@ typedef struct nsvcd__triangle_pair {
 // Sets from_origin and from_axis.
 static void nsvcd__pair_arm(const nsvcd__arc *arc, nsvcd__triangle_pair *pair) {
   pair->from_origin = pair->from_axis = 0;
+  if (nsvcd__is_straight(arc)) return;  // what turns nothing has no arm
   for (size_t k = 0; k < 3; k++) {
     const nsvcd__d3 corner = pair->moving[k];
     const nsvcd__d3 across = nsvcd__d3_cross(corner, arc->own_axis);

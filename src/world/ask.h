@@ -25,8 +25,9 @@ typedef struct nsvcd__asker {
   uint32_t groups, passes;
   int with_sensors;
   nsvcd__shape_box shape;
-  // what its way may come near
+  // what its way may come near, and how near, metres
   nsvcd__box box;
+  double apart;
   // driven bodies are asked about from this part of the frame on, as is the mover; or only then
   double since;
   int at_once;
@@ -39,10 +40,11 @@ typedef struct nsvcd__asker {
 
 // Turns to other poses of the mover.
 static void nsvcd__asker_goes(nsvcd__asker *q, const nsvcd_pose *poses, size_t count) {
-  const double apart = (double)q->question.clearance + (double)q->question.tolerance;
+  q->apart =
+      (double)q->question.clearance + (double)q->question.tolerance + (double)q->question.slop;
   q->question.a.poses = poses;
   q->question.a.count = count;
-  q->box = nsvcd__box_of_way(&q->shape, poses, count, apart + (double)q->question.slop);
+  q->box = nsvcd__box_of_way(&q->shape, poses, count, q->apart);
 }
 
 // Where a body is in the part of the frame that is asked about: writes its poses and how many.
@@ -60,6 +62,17 @@ static void nsvcd__asker_sees(nsvcd__asker *q, const nsvcd__resident *r, nsvcd_m
   mover->count = q->at_once ? 1 : 2;
 }
 
+// May the mover, whose box meets that of a body, meet the body, as boxes in the frames of both
+// tell? Where it turns half around, rounding decides which way.
+static int nsvcd__asker_may_meet(const nsvcd__asker *q, const nsvcd__resident *r) {
+  const nsvcd_mover *a = &q->question.a;
+  const nsvcd_pose *at = &r->given.pose;
+  if (r->is_driven || a->count > 2 || nsvcd__is_half_turn(a->poses, a->count)) return 1;
+  return nsvcd__boxes_meet_in(at, &q->shape, a->poses, a->count, q->apart, &r->shape, at) &&
+         nsvcd__boxes_meet_in(&a->poses[0], &q->shape, a->poses, a->count, q->apart, &r->shape,
+                              at);
+}
+
 // The next body that the mover may meet after body `at`, or the first if that is 0; 0: none.
 static uint32_t nsvcd__asker_next(const nsvcd__asker *q, uint32_t at) {
   const nsvcd_world *world = q->world;
@@ -67,7 +80,7 @@ static uint32_t nsvcd__asker_next(const nsvcd__asker *q, uint32_t at) {
     const nsvcd__resident *r = &world->residents[at];
     if (at == q->self || (r->given.sensor && !q->with_sensors)) continue;
     if (!nsvcd__groups_meet(q->groups, q->passes, &r->given)) continue;
-    if (nsvcd__boxes_meet(&q->box, &r->box)) return at;
+    if (nsvcd__boxes_meet(&q->box, &r->box) && nsvcd__asker_may_meet(q, r)) return at;
   }
   return 0;
 }

@@ -81,3 +81,33 @@ static nsvcd__box nsvcd__box_of_way(const nsvcd__shape_box *shape, const nsvcd_p
   }
   return out;
 }
+
+// Is a turn so near to half a turn that rounding may decide which way it goes?
+static int nsvcd__is_half_turn(const nsvcd_pose *poses, size_t count) {
+  return count > 1 && nsvcd__slerp_of(&poses[0], &poses[1]).half_angle > 1.5;
+}
+
+// A pose as it is seen from a frame.
+static nsvcd_pose nsvcd__seen_from(const nsvcd_pose *frame, const nsvcd_pose *pose) {
+  const nsvcd__dpose from = nsvcd__unit_dpose(frame);
+  const nsvcd__dpose at = nsvcd__unit_dpose(pose);
+  const nsvcd__dtransform place = nsvcd__dtransform_of(&from);
+  nsvcd__dpose out;
+  out.rotation = nsvcd__dquat_mul(nsvcd__dquat_inverse(from.rotation), at.rotation);
+  out.position =
+      nsvcd__dmat3_apply_transpose(&place.rotation, nsvcd__d3_sub(at.position, from.position));
+  return nsvcd__dpose_round(&out);
+}
+
+// Do the boxes of a way of one or two poses, larger by `more`, and of a body at rest meet in a
+// frame? A line is one, and a slerp is one, in any frame that does not move.
+static int nsvcd__boxes_meet_in(const nsvcd_pose *frame, const nsvcd__shape_box *shape,
+                                const nsvcd_pose *poses, size_t count, double more,
+                                const nsvcd__shape_box *other, const nsvcd_pose *at) {
+  const nsvcd_pose there = nsvcd__seen_from(frame, at);
+  nsvcd_pose way[2];
+  for (size_t k = 0; k < count; k++) way[k] = nsvcd__seen_from(frame, &poses[k]);
+  const nsvcd__box a = nsvcd__box_of_way(shape, way, count, more);
+  const nsvcd__box b = nsvcd__box_of_pose(other, &there, 0);
+  return nsvcd__boxes_meet(&a, &b);
+}

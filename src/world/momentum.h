@@ -55,6 +55,8 @@ typedef struct nsvcd__encounter {
 
 typedef struct nsvcd__momentum {
   nsvcd__thing thing;
+  // the speed of the frame in which the body slid
+  nsvcd__d3 frame;
   size_t count, met_count;
   nsvcd__encounter encounters[NSVCD_WORLD_CONTACTS];
   // the movers that take part
@@ -115,7 +117,10 @@ static void nsvcd__momentum_begin(const nsvcd__crowd *crowd, nsvcd_world_mover *
     size_t j = 0;
     while (j < p->met_count && p->met[j] != met) j++;
     const nsvcd_pose *there = &crowd->world->residents[met->id].given.pose;
-    if (j == p->met_count) p->things[j] = nsvcd__thing_of(&met->how, there, &met->velocity);
+    if (j == p->met_count) {
+      p->things[j] = nsvcd__thing_of(&met->how, there, &met->velocity);
+      p->things[j].linear = nsvcd__d3_sub(p->things[j].linear, p->frame);
+    }
     at->other = nsvcd__hold_of(crowd, met->id, &p->things[j], &c->contact);
     if (!nsvcd__takes_part(crowd, m, &came, at, &p->things[j])) continue;
     const double nears =
@@ -180,22 +185,26 @@ static void nsvcd__set_velocity(nsvcd__thing *thing, const nsvcd_velocity *veloc
   thing->linear = nsvcd__d3_load(velocity->linear);
   thing->angular = nsvcd__d3_load(velocity->angular);
 }
-// Takes a speed half way back to what it was.
-static void nsvcd__halve_change(nsvcd__thing *thing, const nsvcd_velocity *was) {
+// Takes a speed half way back to what it was, in a frame.
+static void nsvcd__halve_change(nsvcd__thing *thing, const nsvcd_velocity *was,
+                                nsvcd__d3 frame) {
   const nsvcd__thing now = *thing;
   nsvcd__set_velocity(thing, was);
+  thing->linear = nsvcd__d3_sub(thing->linear, frame);
   thing->linear = nsvcd__d3_mix(thing->linear, now.linear, 0.5);
   thing->angular = nsvcd__d3_mix(thing->angular, now.angular, 0.5);
 }
 
-// A body has slid, and came at a speed: it and what it met share their momentum.
+// A body has slid, and came at a speed, in a frame that moves at another: it and what it met share
+// their momentum.
 static void nsvcd__share_momentum(const nsvcd__crowd *crowd, nsvcd_world_mover *m,
-                                  const nsvcd_velocity *came) {
+                                  const nsvcd_velocity *came, nsvcd__d3 frame) {
   nsvcd__momentum p;
   double most = 0;
   double change = 1;
   const double mass = m->how.mass > 0 ? 1 : (double)m->push_mass;
   if (!(mass > 0) || m->answer.rests) return;
+  p.frame = frame;
   nsvcd__momentum_begin(crowd, m, came, &p);
   if (p.met_count == 0) return;
   const nsvcd__thing slid = p.thing;
@@ -213,9 +222,9 @@ static void nsvcd__share_momentum(const nsvcd__crowd *crowd, nsvcd_world_mover *
   double share = 1;
   for (; nsvcd__energy_of_all(&p) > energy; share *= 0.5) {
     if (share < NSVCD__LEAST_SHARE) return;
-    nsvcd__halve_change(&p.thing, came);
+    nsvcd__halve_change(&p.thing, came, nsvcd__d3_of(0, 0, 0));
     for (size_t j = 0; j < p.met_count; j++)
-      nsvcd__halve_change(&p.things[j], &p.met[j]->velocity);
+      nsvcd__halve_change(&p.things[j], &p.met[j]->velocity, frame);
   }
   nsvcd__tell_velocity(&p.thing, &m->velocity);
   for (size_t k = 0; k < p.count; k++) {
@@ -224,6 +233,7 @@ static void nsvcd__share_momentum(const nsvcd__crowd *crowd, nsvcd_world_mover *
     at->contact->impulse = (float)(held + share * at->own.pushed / mass);
   }
   for (size_t j = 0; j < p.met_count; j++) {
+    p.things[j].linear = nsvcd__d3_add(p.things[j].linear, frame);
     nsvcd__tell_velocity(&p.things[j], &p.met[j]->velocity);
     if (p.met[j]->asleep) nsvcd__wake(p.met[j]);
   }

@@ -43,6 +43,10 @@ static nsvcd__thing nsvcd__thing_of(const nsvcd_slide_options *given, const nsvc
   return out;
 }
 
+static double nsvcd__kept_clearance(const nsvcd_slide_options *given, double reach) {
+  return given->clearance > 0 ? (double)given->clearance : NSVCD__USUAL_CLEARANCE * reach;
+}
+
 static nsvcd_result nsvcd__slide_begin(const nsvcd_world *world, size_t id,
                                        const nsvcd_slide_options *given, float seconds,
                                        void *workspace, size_t size,
@@ -57,14 +61,14 @@ static nsvcd_result nsvcd__slide_begin(const nsvcd_world *world, size_t id,
   nsvcd_result result = nsvcd__slide_check(given, seconds, velocity);
   if (!result) result = nsvcd__asker_begin(world, &asked, workspace, size, &s->ask);
   if (result) return result;
-  const double usual = NSVCD__USUAL_CLEARANCE * s->ask.shape.reach;
   s->given = given;
   s->pose = world->residents[id].given.pose;
-  s->clearance = given->clearance > 0 ? (double)given->clearance : usual;
+  s->clearance = nsvcd__kept_clearance(given, s->ask.shape.reach);
   s->margin = given->margin > 0 ? (double)given->margin : s->clearance;
   s->seconds = (double)seconds;
   s->left = s->pace = 1;
   s->up = nsvcd__d3_load(given->up);
+  s->jumps = nsvcd__d3_dot(nsvcd__d3_load(velocity->linear), s->up) > 0;
   s->slope = given->slope > 0 ? (double)given->slope : NSVCD__USUAL_SLOPE;
   s->ask.question.clearance = (float)s->clearance;
   s->ask.question.to = (float)(NSVCD__STOPS_WITHIN * s->margin);
@@ -111,20 +115,20 @@ static int nsvcd__rests_again(nsvcd__slide *s, float seconds, const nsvcd_veloci
 // there is to be another one.
 static int nsvcd__slide_round(nsvcd__slide *s, int is_first, int *rests) {
   nsvcd__thing *thing = &s->thing;
+  s->is_on_edge = 0;
   nsvcd__slide_look(s);
-  if (s->ground) {
-    const nsvcd__d3 before = s->ridden;
-    s->ridden = nsvcd__driven_speed(s, s->ground->body, nsvcd__pivot_at(s));
-    thing->linear = nsvcd__d3_add(thing->linear, nsvcd__d3_sub(s->ridden, before));
+  nsvcd__ride(s);
+  if (nsvcd__is_before_step(s)) {
+    nsvcd__climb(s);
+    nsvcd__ride(s);
   }
-  if (nsvcd__is_before_step(s) && !nsvcd__climb(s)) (void)nsvcd__is_edge_of_step(s);
   nsvcd__stand(s);
   nsvcd__slide_respond(s);
   const double turn = nsvcd__d3_norm(thing->angular) * s->left * s->seconds;
   if (turn > NSVCD__MOST_TURN)
     thing->angular = nsvcd__d3_scale(thing->angular, NSVCD__MOST_TURN / turn);
   const nsvcd_pose to = nsvcd__aim(s, s->left * s->seconds);
-  if (nsvcd__is_still(s, &to)) {
+  if (s->pace >= 1 && nsvcd__is_still(s, &to)) {
     thing->linear = thing->angular = nsvcd__d3_of(0, 0, 0);
     s->left = 0;
     *rests = is_first;
@@ -194,6 +198,7 @@ NSVCDDEF nsvcd_result nsvcd_world_slide(nsvcd_world *world, size_t id,
     s.left = left;
     if (free_until < 1) out.caught = s.met;
   }
+  if (stood) nsvcd__stop_climbing(&s);
   const double rises = nsvcd__d3_dot(nsvcd__d3_sub(s.thing.linear, s.ridden), s.up);
   s.lost = s.left;
   if (nsvcd__d3_dot(s.up, s.up) > 0 && !s.ask.result && !out.rests) {

@@ -3,7 +3,7 @@
 // The lowest moves first: what is to fall on something finds it where it will be. The order is kept
 // from frame to frame, in which it hardly changes.
 #pragma once
-#include "momentum.h"
+#include "carry.h"
 
 // metres a second; seconds
 #define NSVCD__USUAL_QUIET 0.15
@@ -132,9 +132,8 @@ static int nsvcd__wake_near_driven(const nsvcd__crowd *crowd) {
   double within = 0;
   for (size_t k = 0; k < crowd->count; k++) {
     const nsvcd_slide_options *how = &crowd->movers[k].how;
-    const double usual =
-        NSVCD__USUAL_CLEARANCE * world->residents[crowd->movers[k].id].shape.reach;
-    const double clearance = how->clearance > 0 ? (double)how->clearance : usual;
+    const double reach = world->residents[crowd->movers[k].id].shape.reach;
+    const double clearance = nsvcd__kept_clearance(how, reach);
     const double margin = how->margin > 0 ? (double)how->margin : clearance;
     within = nsvcd__max(within, clearance + 2 * margin);
   }
@@ -162,64 +161,16 @@ static void nsvcd__grow_calm(const nsvcd__crowd *crowd, nsvcd_world_mover *m) {
   memset(&m->velocity, 0, sizeof m->velocity);
 }
 
-// ---- lifts
-
-// How fast a driven body takes a point along that is there now, metres a second; 0: it is not
-// driven.
-static nsvcd__d3 nsvcd__takes_along(const nsvcd__crowd *crowd, const nsvcd__resident *r,
-                                    nsvcd__d3 point) {
-  if (!r->is_driven) return nsvcd__d3_of(0, 0, 0);
-  const nsvcd__dpose from = nsvcd__dpose_of(&r->given.pose);
-  const nsvcd__d3 moved = nsvcd__moved_along(&from, &r->to, point);
-  return nsvcd__d3_over(moved, (double)crowd->seconds);
-}
-
-// The next body beneath a mover, as it was after its last slide, from contact *n on; or NULL.
-static const nsvcd__resident *nsvcd__next_beneath(const nsvcd__crowd *crowd,
-                                                  const nsvcd_world_mover *m, size_t *n) {
-  while (*n < m->answer.contact_count && *n < NSVCD_WORLD_CONTACTS) {
-    const nsvcd_world_contact *c = &m->answer.contacts[(*n)++];
-    const nsvcd__resident *r = nsvcd__resident_of(crowd->world, c->body);
-    if (r && nsvcd__d3_dot(nsvcd__d3_load(c->contact.normal), crowd->up) > 0.5) return r;
-  }
-  return NULL;
-}
-
-static nsvcd__d3 nsvcd__mover_centre(const nsvcd__crowd *crowd, const nsvcd_world_mover *m) {
-  const nsvcd__resident *r = &crowd->world->residents[m->id];
-  return nsvcd__pivot_of(&r->given.pose, r->shape.pivot);
-}
-
-// Finds who stands, by way of others, on what rises: they have to go first, and the highest before
-// all, or those beneath are caught. Going up, each mover knows how fast that beneath it rises.
-static void nsvcd__find_rising(const nsvcd__crowd *crowd) {
-  const nsvcd_world *world = crowd->world;
-  for (size_t k = 0; k < crowd->count; k++) {
-    nsvcd_world_mover *m = &crowd->movers[world->turns[k].mover];
-    const nsvcd__resident *r;
-    double rise = 0;
-    int is_direct = 0;
-    for (size_t n = 0; (r = nsvcd__next_beneath(crowd, m, &n)) != NULL;) {
-      const nsvcd__d3 goes = nsvcd__takes_along(crowd, r, nsvcd__mover_centre(crowd, m));
-      const double lifts =
-          r->is_driven ? nsvcd__d3_dot(goes, crowd->up) : fabs((double)r->rise);
-      is_direct |= r->is_driven && lifts > 0;
-      rise = nsvcd__max(rise, lifts);
-    }
-    // whoever stands on it directly waits for those above
-    world->residents[m->id].rise = (float)(is_direct ? -rise : rise);
-    if (rise > 0 && m->asleep) nsvcd__wake(m);
-  }
-}
-
 // ---- a frame
 
 // Gives a mover what gravity adds to its speed, less what brakes it, as seen from what it stands
 // on.
 static void nsvcd__pull_and_brake(const nsvcd__crowd *crowd, nsvcd_world_mover *m) {
+  const int is_carried = crowd->world->residents[m->id].carrier != NSVCD_NOBODY;
   const int is_braked = m->answer.contact_count > 0 && m->how.mass > 0 && m->how.friction > 0;
-  const int is_slow =
-      is_braked && nsvcd__mover_speed(crowd, m) < NSVCD__NEARLY_QUIET * crowd->quiet;
+  // a lift that speeds up would hold by brakes what friction does not
+  const int is_slow = is_braked && !is_carried &&
+                      nsvcd__mover_speed(crowd, m) < NSVCD__NEARLY_QUIET * crowd->quiet;
   const double quiet = is_slow ? NSVCD__BRAKES_QUIET : 0;
   const double speed = is_braked ? nsvcd__max(NSVCD__BRAKES_SPEED, quiet) : 0;
   const double spin = is_braked ? nsvcd__max(NSVCD__BRAKES_SPIN, quiet) : 0;
@@ -239,29 +190,31 @@ static void nsvcd__pull_and_brake(const nsvcd__crowd *crowd, nsvcd_world_mover *
   nsvcd__tell_velocity(&thing, &m->velocity);
 }
 
-// Has a mover go up at least as fast as what it stands on.
-static void nsvcd__raise(const nsvcd__crowd *crowd, const nsvcd__resident *r,
-                         nsvcd_velocity *velocity) {
-  const nsvcd__d3 linear = nsvcd__d3_load(velocity->linear);
-  const double lacks = nsvcd__max((double)r->rise - nsvcd__d3_dot(linear, crowd->up), 0);
-  nsvcd__f3_store(nsvcd__f3_round(nsvcd__d3_fma(lacks, crowd->up, linear)), velocity->linear);
-}
-
 static nsvcd_result nsvcd__step_mover(const nsvcd__crowd *crowd, nsvcd_world_mover *m,
                                       void *workspace, size_t size, nsvcd_step_answer *out) {
   nsvcd__resident *r = &crowd->world->residents[m->id];
   if (m->asleep || r->is_driven) return NSVCD_OK;
   const nsvcd_velocity was = m->velocity;
+  const int is_carried = r->carrier != NSVCD_NOBODY;
+  const nsvcd__d3 none = {0, 0, 0};
+  // a character's speed is its own already
+  const int is_thing = is_carried && m->how.mass > 0;
+  const nsvcd__d3 goes = is_carried ? r->goes : none;
+  const nsvcd__d3 turns = is_carried ? r->turns : none;
+  if (is_thing) nsvcd__add_carried(goes, turns, -1, &m->velocity);
   nsvcd__pull_and_brake(crowd, m);
-  if (r->rise > 0) nsvcd__raise(crowd, r, &m->velocity);
-  const nsvcd_velocity came = m->velocity;
+  nsvcd_velocity came = m->velocity;
   const nsvcd_result result = nsvcd_world_slide(crowd->world, m->id, &m->how, crowd->seconds,
                                                 workspace, size, &m->velocity, &m->answer);
   if (result) {
     m->velocity = was;
     return result;
   }
-  nsvcd__share_momentum(crowd, m, &came);
+  if (is_thing) nsvcd__add_carried(none, turns, 1, &came);
+  if (is_thing) nsvcd__add_carried(none, turns, 1, &m->velocity);
+  nsvcd__share_momentum(crowd, m, &came, goes);
+  r->slips = is_thing ? nsvcd__d3_load(m->velocity.linear) : none;
+  if (is_thing) nsvcd__add_carried(goes, none, 1, &m->velocity);
   out->awake++;
   out->caught += m->answer.caught != NSVCD_NOBODY;
   out->contacts += m->answer.contact_count;
@@ -293,23 +246,26 @@ NSVCDDEF nsvcd_result nsvcd_world_step(nsvcd_world *world, nsvcd_world_mover *mo
     if (was_woken || (m->asleep && nsvcd__is_disturbed(&crowd, m))) nsvcd__wake(m);
   }
   const int is_driven = nsvcd__wake_near_driven(&crowd);
-  for (size_t k = 0; k < count; k++) world->residents[movers[k].id].rise = 0;
-  if (is_driven) nsvcd__find_rising(&crowd);
-  for (size_t k = is_driven ? 0 : count; k < 2 * count; k++) {
-    const int goes_up = k < count;  // from the highest on
-    nsvcd_world_mover *m = &movers[world->turns[goes_up ? count - 1 - k : k - count].mover];
-    if ((world->residents[m->id].rise > 0) != goes_up) continue;
-    const nsvcd_result said = nsvcd__step_mover(&crowd, m, workspace, workspace_size, &out);
-    if (said && !result) {
-      result = said;
-      out.refused = m->id;
+  if (is_driven) nsvcd__carry_all(&crowd, workspace, workspace_size, &out);
+  // who is carried slides when all that is driven has arrived
+  for (int carried = 0; carried <= is_driven; carried++) {
+    for (size_t k = 0; k < count; k++) {
+      nsvcd_world_mover *m = &movers[world->turns[k].mover];
+      if ((world->residents[m->id].carrier != NSVCD_NOBODY) != carried) continue;
+      const nsvcd_result said = nsvcd__step_mover(&crowd, m, workspace, workspace_size, &out);
+      if (said && !result) {
+        result = said;
+        out.refused = m->id;
+      }
     }
+    const nsvcd_result arrives = nsvcd_world_arrive(world);
+    if (!result) result = arrives;
   }
   for (size_t k = 0; k < count; k++) {
     nsvcd__grow_calm(&crowd, &movers[k]);
     out.asleep += movers[k].asleep != 0;
   }
-  const nsvcd_result arrives = nsvcd_world_arrive(world);
+  if (is_driven) nsvcd__end_carrying(world);
   if (answer) *answer = out;
-  return result ? result : arrives;
+  return result;
 }

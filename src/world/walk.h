@@ -2,20 +2,30 @@
 #pragma once
 #include "ways.h"
 
-// the least cosine of an edge of a step that feet stand on
-#define NSVCD__EDGE_SLOPE 0.05
-
 static nsvcd__d3 nsvcd__flat_part(const nsvcd__slide *s, nsvcd__d3 a) {
   return nsvcd__d3_fma(-nsvcd__d3_dot(a, s->up), s->up, a);
 }
 
+// Has it go with what it stands on.
+static void nsvcd__ride(nsvcd__slide *s) {
+  if (!s->ground) return;
+  const nsvcd__d3 own = nsvcd__d3_sub(s->thing.linear, s->ridden);
+  s->ridden = nsvcd__driven_speed(s, s->ground->body, nsvcd__pivot_at(s));
+  s->thing.linear = nsvcd__d3_add(own, s->ridden);
+}
+
 // What is too steep to stand on is a wall. For whoever stands it is upright; who is in the air
-// slides down it, but does not rise by walking into it.
+// slides down it, but does not rise by walking into it. An edge that feet stand on is level: it
+// bears them, and neither throws them up nor stops them.
 static void nsvcd__meet_walls(nsvcd__slide *s) {
   for (size_t k = s->kept; k < s->contact_count; k++) {
     nsvcd__hold *h = &s->holds[k];
     const double rise = nsvcd__d3_dot(h->normal, s->up);
     if (!(rise > 0) || rise >= s->slope) continue;
+    if (s->is_on_edge && rise >= NSVCD__EDGE_SLOPE) {
+      h->normal = s->up;
+      continue;
+    }
     const nsvcd__d3 flat = nsvcd__flat_part(s, h->normal);
     const nsvcd__d3 away = nsvcd__d3_scale(flat, 1 / nsvcd__d3_norm(flat));
     const double into = nsvcd__d3_dot(nsvcd__d3_sub(h->speed, s->thing.linear), away);
@@ -27,7 +37,7 @@ static void nsvcd__meet_walls(nsvcd__slide *s) {
 // Whoever stands on a ground does not slide down it, and walks up it as fast as on the level.
 static void nsvcd__stand(nsvcd__slide *s) {
   if (s->ground) {
-    const nsvcd__d3 n = nsvcd__d3_load(s->ground->contact.normal);
+    const nsvcd__d3 n = s->is_on_edge ? s->up : nsvcd__d3_load(s->ground->contact.normal);
     const nsvcd__d3 own = nsvcd__d3_sub(s->thing.linear, s->ridden);
     const int falls = nsvcd__d3_dot(own, s->up) < 0;
     const double steep = nsvcd__d3_dot(n, s->up);
@@ -41,9 +51,22 @@ static void nsvcd__stand(nsvcd__slide *s) {
   nsvcd__meet_walls(s);
 }
 
-// Onto a step: up, along, and down again. What has been gone of the way is not gone again. Returns
-// whether that led onto ground.
-static int nsvcd__climb(nsvcd__slide *s) {
+// Round feet meet the edge of a step long before they are above it. It is one if a step farther on
+// there is ground, no higher than a step. Moves the body there, or wherever it gets to.
+static int nsvcd__is_edge_of_step(nsvcd__slide *s) {
+  const double step = (double)s->given->step;
+  const nsvcd__d3 walks = nsvcd__flat_part(s, nsvcd__d3_sub(s->thing.linear, s->ridden));
+  const nsvcd__d3 way = nsvcd__d3_scale(walks, step / nsvcd__d3_norm(walks));
+  const double risen = step * nsvcd__go_by(s, nsvcd__d3_scale(s->up, step));
+  const double gone = nsvcd__go_by(s, way);
+  (void)nsvcd__go_by(s, nsvcd__d3_scale(s->up, -risen - s->margin));
+  nsvcd__slide_look(s);
+  return gone >= 1 && s->ground;
+}
+
+// Onto a step, or its edge, if there is one: up, along, and down again. What has been gone of the
+// way is not gone again.
+static void nsvcd__climb(nsvcd__slide *s) {
   const double step = (double)s->given->step;
   const nsvcd_pose start = s->pose;
   const double time = s->left * s->seconds * s->pace;
@@ -53,33 +76,22 @@ static int nsvcd__climb(nsvcd__slide *s) {
   const double gone = nsvcd__go_by(s, way);
   const double drop = risen + s->margin;
   const double dropped = drop * nsvcd__go_by(s, nsvcd__d3_scale(s->up, -drop));
-  const int is_higher = dropped < risen - s->margin && gone > 0;
-  if (is_higher) nsvcd__slide_look(s);
-  if (is_higher && s->ground) {
-    s->pace *= 1 - gone;
-    return 1;
+  const nsvcd_pose above = s->pose;
+  int is_up = dropped < risen - s->margin && gone > 0;
+  if (is_up) nsvcd__slide_look(s);
+  if (dropped < risen && gone > 0 && !(is_up && s->ground)) {
+    s->pose = start;
+    is_up = s->is_on_edge = nsvcd__is_edge_of_step(s);
+    s->pose = above;
+    if (is_up) nsvcd__slide_look(s);
   }
-  s->pose = start;
-  if (is_higher) nsvcd__slide_look(s);
-  return 0;
-}
-
-// Round feet meet the edge of a step long before they are above it. It is one if a step farther on
-// there is ground, no higher than a step.
-static int nsvcd__is_edge_of_step(nsvcd__slide *s) {
-  const double step = (double)s->given->step;
-  const nsvcd_pose start = s->pose;
-  const nsvcd__d3 walks = nsvcd__flat_part(s, nsvcd__d3_sub(s->thing.linear, s->ridden));
-  const nsvcd__d3 way = nsvcd__d3_scale(walks, step / nsvcd__d3_norm(walks));
-  const double risen = step * nsvcd__go_by(s, nsvcd__d3_scale(s->up, step));
-  const double gone = nsvcd__go_by(s, way);
-  (void)nsvcd__go_by(s, nsvcd__d3_scale(s->up, -risen - s->margin));
-  nsvcd__slide_look(s);
-  const int is_step = gone >= 1 && s->ground;
-  if (is_step) s->slope = NSVCD__EDGE_SLOPE;
+  if (is_up && s->ground) {
+    s->pace *= 1 - gone;
+    return;
+  }
+  s->is_on_edge = 0;
   s->pose = start;
   nsvcd__slide_look(s);
-  return is_step;
 }
 
 // Whoever stood on a ground and walked off it steps down, if there is a ground to step down on.
@@ -92,10 +104,18 @@ static void nsvcd__step_down(nsvcd__slide *s) {
   s->pose = above;
 }
 
+// Whoever stood, and did not jump, does not fly off what it walked up: it keeps no speed upwards.
+static void nsvcd__stop_climbing(nsvcd__slide *s) {
+  const nsvcd__d3 own = nsvcd__d3_sub(s->thing.linear, s->ridden);
+  const double up = nsvcd__max(nsvcd__d3_dot(own, s->up), 0);
+  if (s->jumps) return;
+  s->thing.linear = nsvcd__d3_fma(-up, s->up, s->thing.linear);
+}
+
 // Is there something too steep to stand on in the way of whoever stands, or is on an edge?
 static int nsvcd__is_before_step(const nsvcd__slide *s) {
   const nsvcd__d3 walks = nsvcd__flat_part(s, nsvcd__d3_sub(s->thing.linear, s->ridden));
-  if (!(s->given->step > 0)) return 0;
+  if (!(s->given->step > 0) || s->jumps) return 0;
   for (size_t k = s->kept; k < s->contact_count; k++) {
     const nsvcd__d3 n = s->holds[k].normal;
     const double rise = nsvcd__d3_dot(n, s->up);

@@ -15,6 +15,8 @@
 #define NSVCD__USUAL_CLEARANCE 0.005
 #define NSVCD__USUAL_ROUNDS 4
 #define NSVCD__USUAL_SLOPE 0.7
+// the least cosine of an edge of a step that feet stand on
+#define NSVCD__EDGE_SLOPE 0.05
 // of the margin: how exact stops are
 #define NSVCD__STOPS_WITHIN 0.05
 // of the margin: a way in which no point goes farther is none for what rubs against something
@@ -33,9 +35,12 @@ typedef struct nsvcd__slide {
   double clearance, margin, seconds;
   // of the frame; and what of it was of no use
   double left, lost;
-  // unit, or 0; the least cosine of a ground
+  // unit, or 0; the least cosine of a ground; and whether it may be an edge of a step in this round
   nsvcd__d3 up;
   double slope;
+  int is_on_edge;
+  // it was given a speed upwards
+  int jumps;
   // the speed of what it rides on; and the speed besides its own with which it leaves what is near
   nsvcd__d3 ridden, leaves;
   // what its last way met first; or nobody
@@ -81,12 +86,18 @@ static nsvcd__d3 nsvcd__driven_speed(const nsvcd__slide *s, size_t id, nsvcd__d3
   return nsvcd__d3_scale(moved, 1 / (s->left * s->seconds));
 }
 
+// How fast what is carried slips along a contact: it has moved already, and only friction sees it.
+static nsvcd__d3 nsvcd__slip_of(const nsvcd__resident *r, nsvcd__d3 normal) {
+  if (!r->carrier) return nsvcd__d3_of(0, 0, 0);
+  return nsvcd__d3_fma(-nsvcd__d3_dot(r->slips, normal), normal, r->slips);
+}
+
 // Finds all contacts at the pose now, behind those that have pushed, and what they ask for.
 static void nsvcd__slide_look(nsvcd__slide *s) {
   const nsvcd__d3 pivot = nsvcd__pivot_at(s);
   const double time = nsvcd__max(s->left, 1e-3) * s->seconds;
   const float within = (float)(s->clearance + 2 * s->margin);
-  double flattest = s->slope;
+  double flattest = s->is_on_edge ? NSVCD__EDGE_SLOPE : s->slope;
   size_t kept = 0;
   for (size_t k = 0; k < s->contact_count; k++)
     if (s->contacts[k].impulse > 0) s->contacts[kept++] = s->contacts[k];
@@ -104,7 +115,9 @@ static void nsvcd__slide_look(nsvcd__slide *s) {
     memset(h, 0, sizeof *h);
     h->normal = nsvcd__d3_load(c->normal);
     const nsvcd__d3 on_other = nsvcd__d3_load(c->point);
-    h->speed = nsvcd__driven_speed(s, s->contacts[k].body, on_other);
+    const nsvcd__d3 driven = nsvcd__driven_speed(s, s->contacts[k].body, on_other);
+    h->speed = nsvcd__d3_add(
+        driven, nsvcd__slip_of(&s->ask.world->residents[s->contacts[k].body], h->normal));
     h->arm = nsvcd__d3_sub(nsvcd__d3_fma((double)c->gap, h->normal, on_other), pivot);
     h->lacks = s->clearance + 0.5 * s->margin - (double)c->gap;
     h->least = nsvcd__min(s->clearance + s->margin - (double)c->gap, 0) / time;

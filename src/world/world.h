@@ -19,10 +19,16 @@ typedef struct nsvcd__resident {
   // when it came to where it is, on the world's clock
   uint64_t moved;
   uint32_t next_free;
-  // which of a step's movers it was last; and how fast a lift raises it, negative if it stands on
-  // that itself, and not by way of others
+  // which of a step's movers it was last
   uint32_t mover;
-  float rise;
+  // during that step: the driven body that carries it; that it is in the way of what this one
+  // carries; or that it cannot be carried
+  uint32_t carrier, joins;
+  int stays;
+  // when its way along was proven to be free, on the world's clock; metres and radians a second of
+  // it; and its speed besides
+  uint64_t proven;
+  nsvcd__d3 goes, turns, slips;
 } nsvcd__resident;
 
 // One of a step's movers, and how high it is.

@@ -11,8 +11,8 @@ Wherever there are poses, rigid 4x4 matrices may be instead: poses_from_matrices
 Arrays may be of any numeric type and stride: they are copied, as float32. What an answer is worth,
 and what each option and field means in full, is said in neuralsvcd.h under the same names.
 
-Threads may share everything here. The library has its memory for each thread, and while it works,
-other Python threads run. What it refuses is raised as Error; arrays of the wrong shape or type are
+Threads may share everything here but Movers. The library has its memory for each thread, and while it
+works, other Python threads run. What it refuses is raised as Error; arrays of the wrong shape or type are
 ValueError and TypeError.
 """
 from __future__ import annotations
@@ -26,6 +26,7 @@ import math
 import operator
 import os
 import struct
+import sys
 import threading
 import warnings
 from collections.abc import Callable, Iterator, Sequence
@@ -39,9 +40,9 @@ from numpy.typing import ArrayLike, NDArray
 
 __all__ = [
     "Answer", "Ask", "Body", "By", "Certificate", "Checked", "Code", "Contact", "Error", "Facts", "Gradient", "Joint",
-    "JointKind", "LEAVE_OUT", "Mesh", "Method", "Model", "Motion", "NO_TRIANGLE", "Opinion", "Options", "Part", "Plan",
+    "JointKind", "LEAVE_OUT", "Mass", "Mesh", "Method", "Model", "Motion", "Movers", "NO_TRIANGLE", "Opinion", "Options", "Part", "Plan",
     "PlanOptions", "PlanStatus", "Precision", "Progress", "Range", "Reached", "Resident", "Robot", "Route", "RouteStatus",
-    "SafePlace", "Slide", "SlideOptions", "Stage", "Tree", "Verdict", "Why", "World", "WorldAnswer", "WorldContact", "certify", "contacts", "cut_mesh", "load_mesh", "load_obj", "load_stl",
+    "SafePlace", "Slide", "SlideOptions", "Stage", "Step", "Tree", "Verdict", "Why", "World", "WorldAnswer", "WorldContact", "certify", "contacts", "cut_mesh", "load_mesh", "load_obj", "load_stl",
     "parse_mesh", "parse_obj", "parse_stl", "plan", "poses_from_matrices", "spline", "sweep", "sweep_batch", "sweep_gradient",
 ]
 
@@ -331,7 +332,14 @@ _SlideAnswer = _struct(
     "nsvcd_slide_answer", pose=_Pose, spent=c_float, rests=c_int, ground=c_size_t, ground_normal=c_float * 3, caught=c_size_t,
     contact_count=c_size_t, contacts=_WorldContact * _WORLD_CONTACTS, questions=c_size_t, work=c_size_t, told=_SlideOptions,
     given=_Velocity, seconds=c_float, clock=c_uint64)
-_STRUCTS = (_WorldBody, _WorldContact, _WorldQuestion, _WorldAnswer, _SlideOptions, _Velocity, _SlideAnswer, _CertifyOptions, _Certificate, _Joint, _Part, _Scene, _Allowance, _Cone, _JointMotion, _PartialMotion, _CheckOptions, _CheckAnswer, _Proximity, _ProximityOptions, _NearestFreeOptions,
+_WorldMover = _struct(
+    "nsvcd_world_mover", id=c_size_t, how=_SlideOptions, velocity=_Velocity, push_mass=c_float, damping=c_float,
+    spin_damping=c_float, asleep=c_int, sleepless=c_int, calm=c_float, answer=_SlideAnswer)
+_StepOptions = _struct("nsvcd_step_options", gravity=c_float * 3, quiet=c_float, calm=c_float)
+_StepAnswer = _struct("nsvcd_step_answer", awake=c_size_t, asleep=c_size_t, caught=c_size_t, contacts=c_size_t, questions=c_size_t,
+                      work=c_size_t, refused=c_size_t)
+_Mass = _struct("nsvcd_mass", volume=c_float, centre=c_float * 3, inertia=c_float * 3, is_of_box=c_int)
+_STRUCTS = (_WorldMover, _StepOptions, _StepAnswer, _Mass, _WorldBody, _WorldContact, _WorldQuestion, _WorldAnswer, _SlideOptions, _Velocity, _SlideAnswer, _CertifyOptions, _Certificate, _Joint, _Part, _Scene, _Allowance, _Cone, _JointMotion, _PartialMotion, _CheckOptions, _CheckAnswer, _Proximity, _ProximityOptions, _NearestFreeOptions,
             _PairCounts, _ReachProblem, _ReachOptions, _ReachAnswer, _RouteProblem, _RouteOptions, _RouteAnswer, _Mesh, _EncodeOptions, _BodyFacts, _Pose, _NetworkOptions, _Mover, _Question, _Range, _Contact,
             _SafePlace, _Opinion, _Answer, _BodyPair, _PlanProgress, _PlanProblem, _PlanStage, _PlanOptions, _PlanAnswer)
 _Layout = _struct("neuralsvcd_layout", name=c_char_p, place=c_size_t, size=c_size_t)
@@ -340,6 +348,9 @@ _PROTOTYPES = {
     "nsvcd_result_string": (c_char_p, c_int),
     "nsvcd_obj_parse": (c_int, c_char_p, c_size_t, c_void_p, c_void_p, c_void_p),
     "nsvcd_mesh_cut": (c_int, c_void_p, c_void_p, c_void_p, c_void_p, c_void_p),
+    "nsvcd_mesh_hull": (c_int, c_void_p, c_size_t, c_void_p, c_void_p),
+    "nsvcd_mesh_of_heights": (c_int, c_void_p, c_size_t, c_size_t, c_void_p, c_void_p, c_void_p),
+    "nsvcd_mesh_mass": (c_int, c_void_p, c_void_p),
     "nsvcd_mesh_free": (None, c_void_p, c_void_p),
     "nsvcd_encode": (c_int, c_void_p, c_void_p, c_void_p, c_void_p, c_size_t, c_void_p),
     "nsvcd_body_free": (None, c_void_p, c_void_p),
@@ -385,6 +396,7 @@ _PROTOTYPES = {
     "nsvcd_world_list": (c_int, c_void_p, c_void_p, c_void_p, c_size_t, c_void_p, c_size_t, c_void_p),
     "nsvcd_world_pairs": (c_int, c_void_p, c_float, c_void_p, c_size_t, c_void_p),
     "nsvcd_world_slide": (c_int, c_void_p, c_size_t, c_void_p, c_float, c_void_p, c_size_t, c_void_p, c_void_p),
+    "nsvcd_world_step": (c_int, c_void_p, c_void_p, c_size_t, c_void_p, c_float, c_void_p, c_size_t, c_void_p),
     "neuralsvcd_mesh_parse": (c_char_p, c_char_p, c_char_p, c_size_t, c_void_p, c_void_p, c_void_p, c_void_p),
     "neuralsvcd_layouts": (c_void_p, c_void_p),
 }
@@ -440,7 +452,7 @@ class Error(Exception):
     code   why
     where  of a file its name, of an argument that, or ""
     line   of a file that is text, from 1; 0: none is at fault
-    index  of sweep_batch: the first motion at fault, else None
+    index  of sweep_batch: the first motion at fault; of World.step: the mover; else None
     reason in words, where a reader knows more than the code says, else ""
     """
 
@@ -458,13 +470,22 @@ class Error(Exception):
         if self.line:
             place.append(f"line {self.line}")
         if self.index is not None:
-            place.append(f"motion {self.index}")
+            place.append(f"index {self.index}")
         return ": ".join([*place, self.reason or _library.nsvcd_result_string(self.code).decode()])
 
 
 def _check(code: int) -> None:
     if code:
         raise Error(code)
+
+
+def _check_of(code: int, names: dict[Code, str]) -> None:
+    """As _check. Which argument is at fault is told by the code, for each call."""
+    if code:
+        raise Error(code, names.get(Code(code), ""))
+
+
+_OF_POINTS = {Code.SCALE: "step"}
 
 
 def _check_radius(radius: float) -> None:
@@ -568,6 +589,21 @@ _workspace = _Workspace()
 # -------------------------------------------------------------------------------------------------------------- meshes
 
 
+class Mass(NamedTuple):
+    """A mesh as a solid of one density: nsvcd_mass.
+
+    volume     cubic metres
+    centre     (3) float32, of mass: the pivot of what moves freely
+    inertia    (3) float32, of a kilogram, square metres, about the mesh's axes through that centre; times the mass, and the scale
+               squared, it is that of SlideOptions and Movers
+    is_of_box  the mesh is open, inside out or flat, and all of this is that of its box
+    """
+    volume: float
+    centre: Floats
+    inertia: Floats
+    is_of_box: bool
+
+
 class Mesh(NamedTuple):
     """Triangles, counter-clockwise seen from outside.
 
@@ -576,6 +612,35 @@ class Mesh(NamedTuple):
     """
     vertices: Floats
     triangles: NDArray[np.uint32]
+
+    @classmethod
+    def hull(cls, points: ArrayLike) -> Mesh:
+        """The convex hull of (n, 3) points, metres: a closed mesh, whose vertices are points among these: nsvcd_mesh_hull.
+        Error: EMPTY (all are in one plane), NUMBER, TOO_LARGE."""
+        given, mesh = _floats(points, (None, 3), "points"), _Mesh()
+        _check_of(_library.nsvcd_mesh_hull(_address(given), len(given), None, byref(mesh)), _OF_POINTS)
+        return _taken(mesh)
+
+    @classmethod
+    def heights(cls, heights: ArrayLike, step: ArrayLike = 1) -> Mesh:
+        """A height field, to be encoded as `open`: nsvcd_mesh_of_heights. Sample [row, column] is the vertex (column * step,
+        row * step, height), z up.
+
+        heights  (rows, columns) metres; NaN: there is no sample, and so a hole
+        step     metres between samples, along x and y or (2) along each
+        Error: EMPTY (there is no triangle), SCALE (step), NUMBER, TOO_LARGE.
+        """
+        given, mesh = _floats(heights, (None, None), "heights"), _Mesh()
+        steps = _floats(np.repeat(step, 2) if np.ndim(step) == 0 else step, (2,), "step")
+        _check_of(_library.nsvcd_mesh_of_heights(_address(given), *given.shape, _address(steps), None, byref(mesh)), _OF_POINTS)
+        return _taken(mesh)
+
+    def mass(self) -> Mass:
+        """Its volume, centre of mass and moments of inertia, exact, to rounding, if it is closed: nsvcd_mesh_mass.
+        Error: EMPTY, INDEX, NUMBER."""
+        mesh, mass = _c_mesh(*self), _Mass()
+        _check(_library.nsvcd_mesh_mass(byref(mesh), byref(mass)))
+        return Mass(mass.volume, np.array(mass.centre, np.float32), np.array(mass.inertia, np.float32), bool(mass.is_of_box))
 
 
 def _c_mesh(vertices: ArrayLike, triangles: ArrayLike) -> Any:
@@ -834,12 +899,14 @@ class Body:
     def __repr__(self) -> str:
         return f"<neuralsvcd.Body: {self.facts.patches} patches, {self.facts.size} bytes>"
 
-    def scaled(self, scale: float) -> Body:
-        """A copy, scaled about the origin. A question has scales of its own."""
+    def scaled(self, scale: ArrayLike) -> Body:
+        """A copy, scaled about the origin: by one factor, of which a question needs no copy, or by (3), one along each axis.
+        Factors that differ stretch it, and negative ones mirror; then it has no latents.
+        Error: SCALE (a 0, too small or large; or a stretched body has a convex radius), TRIANGLES (it has none)."""
         memory = _memory(len(self._memory))
         scaled = c_void_p()
-        factor = _number(c_float, scale, "scale")
-        _check(_library.nsvcd_body_scale(self._address, (c_float * 3)(factor, factor, factor), _address(memory), len(memory), byref(scaled)))
+        factors = _floats(np.repeat(scale, 3) if np.ndim(scale) == 0 else scale, (3,), "scale")
+        _check(_library.nsvcd_body_scale(self._address, _address(factors), _address(memory), len(memory), byref(scaled)))
         body = Body.__new__(Body)
         body._keep(memory)
         return body
@@ -2128,6 +2195,170 @@ class Slide(NamedTuple):
     work: int
 
 
+class Step(NamedTuple):
+    """What became of all movers in a frame: nsvcd_step_answer. Of all: how many
+
+    awake      moved, or could have
+    asleep     sleep at the end
+    caught     could not get out of the way of a driven body
+    contacts, questions, work  of their slides
+    """
+    awake: int
+    asleep: int
+    caught: int
+    contacts: int
+    questions: int
+    work: int
+
+
+def _columns(struct: Any, start: int = 0) -> dict[str, tuple[Any, int]]:
+    """The numbers of a struct that starts there in a row of Movers: of which kind, and where."""
+    columns = {}
+    for name, kind in struct._fields_:
+        whole, place = np.dtype(kind), start + getattr(struct, name).offset
+        if whole == np.intc:  # a truth: its lowest byte
+            whole, place = np.dtype(bool), place + (whole.itemsize - 1 if sys.byteorder == "big" else 0)
+        columns[name] = whole, place
+    return columns
+
+
+_TOLD_OF_MOVERS = ("caught", "ground", "ground_normal", "contact_count")
+_GIVEN_OF_MOVERS = ("velocity", "mass", "inertia", "friction", "restitution", "push_mass", "damping", "spin_damping", "asleep",
+                    "sleepless", "clearance", "margin", "up", "step", "slope", "rounds", "work")
+
+
+def _mover_rows() -> Any:
+    """A type of numpy's: an nsvcd_world_mover by the names that Movers have."""
+    columns = {**_columns(_SlideAnswer, _WorldMover.answer.offset), **_columns(_WorldMover),
+               **_columns(_SlideOptions, _WorldMover.how.offset),
+               "velocity": (np.dtype((np.float32, 6)), _WorldMover.velocity.offset)}
+    names = ["id", *_GIVEN_OF_MOVERS, *_TOLD_OF_MOVERS]
+    formats, offsets = zip(*(columns[name] for name in names))
+    return np.dtype({"names": names, "formats": formats, "offsets": offsets, "itemsize": ctypes.sizeof(_WorldMover)})
+
+
+_MOVER_ROWS = _mover_rows()
+
+
+class Movers:
+    """n bodies of a World that World.step moves: nsvcd_world_mover, as arrays, one row for each body.
+
+        movers = Movers(ids, mass=2, inertia=2 * box.mass().inertia, friction=0.5)
+        movers.velocity[0] = 3, 0, 0, 0, 0, 0
+        while not movers.asleep.all():
+            world.step(movers, 1 / 60)
+
+    Each argument is for all bodies, or has a row for each, and so it becomes an array of that name, which holds what the library
+    has: what is written there counts at the next step. Zero is the default of everything.
+
+    ids          (n) uint64, of bodies that are not fixed, each once. Not to be written
+    velocity     (n, 6) float32, metres a second of the pivot, then radians a second, in the world; or (3), which does not turn
+    push_mass    (n) float32, kilograms: what a character pushes with; 0: it pushes nothing
+    damping, spin_damping  (n) float32, a second: the share of its speed, and of its spin, that it loses everywhere
+    asleep       (n) bool: it stays where it is until something wakes it, and costs nothing
+    sleepless    (n) bool: it never falls asleep, as characters do not
+    mass, inertia, friction, restitution, clearance, margin, up, step, slope, rounds, work  as SlideOptions says; inertia and up
+                 (n, 3), rounds and work uint64, else (n) float32. What has no mass is a character
+
+    What became of each in its last frame, to be read:
+    caught         (n) uint64: the driven body that it could not get out of the way of; 0: none
+    ground, ground_normal  (n) uint64 and (n, 3): the body that a character stands on, 0: none, and the ground's normal
+    contact_count  (n) uint64; `contacts(k)` tells them
+
+    movers[mask], [slice] or [numbers] is a copy of some, and `a + b` of both, with all that they are: for bodies that come and go.
+    """
+    ids: NDArray[np.uint64]
+    velocity: Floats
+    mass: Floats
+    inertia: Floats
+    friction: Floats
+    restitution: Floats
+    push_mass: Floats
+    damping: Floats
+    spin_damping: Floats
+    asleep: NDArray[np.bool_]
+    sleepless: NDArray[np.bool_]
+    clearance: Floats
+    margin: Floats
+    up: Floats
+    step: Floats
+    slope: Floats
+    rounds: NDArray[np.uint64]
+    work: NDArray[np.uint64]
+    caught: NDArray[np.uint64]
+    ground: NDArray[np.uint64]
+    ground_normal: Floats
+    contact_count: NDArray[np.uint64]
+
+    def __init__(self, ids: ArrayLike, *, velocity: ArrayLike = 0, mass: ArrayLike = 0, inertia: ArrayLike = 0,
+                 friction: ArrayLike = 0, restitution: ArrayLike = 0, push_mass: ArrayLike = 0, damping: ArrayLike = 0,
+                 spin_damping: ArrayLike = 0, asleep: ArrayLike = False, sleepless: ArrayLike = False, clearance: ArrayLike = 0,
+                 margin: ArrayLike = 0, up: ArrayLike = 0, step: ArrayLike = 0, slope: ArrayLike = 0, rounds: ArrayLike = 0,
+                 work: ArrayLike = 0) -> None:
+        given = locals()
+        wanted = _numeric(ids, (None,), "ids")
+        if wanted.size and wanted.dtype.kind == "f":
+            raise TypeError(f"ids: an array of integers is needed, not of {wanted.dtype}")
+        if wanted.size and wanted.min() < 1:
+            raise Error(Code.INDEX, "ids")
+        memory = np.zeros((len(wanted), _MOVER_ROWS.itemsize), np.uint8)
+        memory.view(_MOVER_ROWS)[:, 0]["id"] = wanted
+        self._keep(memory, None)
+        for name in _GIVEN_OF_MOVERS:
+            setattr(self, name, given[name])
+
+    def _keep(self, memory: NDArray[np.uint8], world: Optional[World]) -> None:
+        rows = memory.view(_MOVER_ROWS)[:, 0]
+        views = {"ids": rows["id"], **{name: rows[name] for name in (*_GIVEN_OF_MOVERS, *_TOLD_OF_MOVERS)}}
+        for name in ("ids", *_TOLD_OF_MOVERS):
+            views[name].flags.writeable = False
+        self.__dict__.update(views, _memory=memory, _world=world)
+
+    @classmethod
+    def _of(cls, memory: NDArray[np.uint8], world: Optional[World]) -> Movers:
+        self = cls.__new__(cls)
+        self._keep(memory, world)
+        return self
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        """Writes into the array of that name."""
+        array = self.__dict__.get(name)
+        if name[:1] == "_" or array is None:
+            raise AttributeError(f"Movers have no {name}")
+        numbers = np.asarray(value)
+        if numbers.dtype.kind not in {"b": "biu", "u": "iu", "f": "fiu"}[array.dtype.kind]:
+            raise TypeError(f"{name}: numbers as {array.dtype} are needed, not {numbers.dtype}")
+        if array.dtype.kind == "u" and numbers.size and numbers.min() < 0:
+            raise ValueError(f"{name}: {value} is less than 0")
+        if name == "velocity" and numbers.ndim and numbers.shape[-1] == 3:
+            numbers = np.concatenate([numbers, np.zeros_like(numbers)], axis=-1)
+        try:
+            numbers = np.broadcast_to(numbers, array.shape)
+        except ValueError:
+            raise ValueError(f"{name}: an array {array.shape} is needed, not {numbers.shape}") from None
+        array[...] = numbers
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        raise TypeError("Movers cannot be pickled; movers[:] is a copy")
+
+    def __len__(self) -> int:
+        return len(self._memory)
+
+    def __getitem__(self, which: Any) -> Movers:
+        return Movers._of(np.atleast_2d(self._memory[which]).copy(), self._world)
+
+    def __add__(self, others: Movers) -> Movers:
+        worlds = {self._world, others._world} - {None}
+        if len(worlds) > 1:
+            raise ValueError("movers of two Worlds")
+        return Movers._of(np.concatenate([self._memory, others._memory]), next(iter(worlds), None))
+
+    def contacts(self, k: int) -> list[WorldContact]:
+        """Where the k-th touched at the end of its last frame, or within the margin; with which impulses."""
+        answer = _SlideAnswer.from_buffer_copy(self._memory[operator.index(k)], _WorldMover.answer.offset)
+        return _world_contacts(answer, answer.contact_count)
+
+
 _WORLD_FIELDS, _SLIDE_FIELDS, _WORLD_CONTACT = _packed(_WorldAnswer), _packed(_SlideAnswer), _packed(_WorldContact)
 
 
@@ -2162,12 +2393,6 @@ class _Door:
             yield
 
 
-def _check_of(code: int, names: dict[Code, str]) -> None:
-    """As _check. Which argument is at fault is told by the code, for each call."""
-    if code:
-        raise Error(code, names.get(Code(code), ""))
-
-
 _OF_BODY = {Code.COUNT: "most", Code.POSE: "pose", Code.QUATERNION: "pose", Code.SCALE: "scale", Code.PIVOT: "pivot",
             Code.TRIANGLES: "body"}
 _OF_ID = {Code.INDEX: "id", Code.POSE: "pose", Code.QUATERNION: "pose"}
@@ -2175,6 +2400,9 @@ _OF_MOVER = {Code.INDEX: "mover", Code.POSES: "poses", Code.POSE: "poses", Code.
              Code.SCALE: "scale", Code.PIVOT: "pivot", Code.TRIANGLES: "mover"}
 _OF_SLIDE = {Code.INDEX: "id", Code.SPEED: "velocity", Code.TIMES: "seconds", Code.CLEARANCE: "clearance, margin",
              Code.AXIS: "up", Code.DISTANCE: "step", Code.VALUE: "mass, inertia, friction, restitution, slope"}
+_OF_STEP = {Code.INDEX: "ids", Code.TIMES: "seconds, calm", Code.SPEED: "quiet", Code.VALUE: "gravity"}
+_OF_STEPPED = {**_OF_SLIDE, Code.INDEX: "ids", Code.POSE: "movers",
+               Code.VALUE: "mass, inertia, friction, restitution, slope, push_mass, damping, spin_damping"}
 
 
 class World:
@@ -2182,13 +2410,12 @@ class World:
 
         world = World(100)
         floor, crate = world.add(level, fixed=True), world.add(box, [0, 0, 1, 0, 0, 0, 1])
-        velocity = np.zeros(6)
+        movers = Movers([crate], mass=1, friction=0.5)
         for frame in range(60):
-            velocity[2] -= 9.81 / 60
-            velocity = world.slide(crate, velocity, 1 / 60, SlideOptions(mass=1, friction=0.5)).velocity
+            world.step(movers, 1 / 60)
 
     If no two bodies overlap, none do after a slide. Bodies have ids, from 1 on, and live as long as the world has them. Any
-    number of threads may ask; who changes the world, slides too, waits until they have their answers.
+    number of threads may ask; who changes the world, by a slide or a step too, waits until they have their answers.
     """
 
     def __init__(self, most: int) -> None:
@@ -2344,6 +2571,37 @@ class World:
             v: Any = _SLIDE_FIELDS.unpack(answer)
             contacts = _world_contacts(answer, v[14])
         return Slide(v[0:7], speed, v[7], bool(v[8]), v[9] or None, v[10:13], v[13] or None, contacts, v[15], v[16])
+
+    def step(self, movers: Movers, seconds: float, *, gravity: ArrayLike = (0, 0, -9.81), quiet: float = 0, calm: float = 0) -> Step:
+        """Moves bodies for a frame, and ends it: each is given gravity and slides, what it hits gets its part of the momentum, who is
+        quiet for long enough falls asleep, and what is driven arrives: nsvcd_world_step. No two bodies overlap, if none did.
+
+        movers   their arrays are as they are at the end. The library writes them meanwhile: other threads keep off
+        seconds  of the frame
+        gravity  (3) metres a second squared
+        quiet    metres a second: what touches something, and of which no point is faster, falls asleep after
+        calm     so many seconds; 0.15 and 0.1
+
+        Error: its index is that of the mover at fault, if one is. INDEX (an id is no body's, a fixed body's, or there twice), VALUE,
+        SPEED, TIMES, CLEARANCE, AXIS, DISTANCE: nothing has moved. POSE: that body, about to leave the coordinates, stays where it
+        is, and all others have moved.
+        """
+        if not isinstance(movers, Movers):
+            raise TypeError(f"movers: Movers are needed, not {type(movers).__name__}")
+        options, answer = _filled(_StepOptions, quiet=quiet, calm=calm), _StepAnswer()
+        options.gravity[:] = _floats(gravity, (3,), "gravity").tolist()
+        time = _number(c_float, seconds, "seconds")
+        with self._door.changes():
+            if movers._world not in (None, self):
+                raise ValueError("movers: of another World")
+            code = _library.nsvcd_world_step(self._world, _address(movers._memory), len(movers), byref(options), time,
+                                             _workspace.address, _workspace.size, byref(answer))
+            if code in (0, Code.POSE):
+                movers.__dict__["_world"] = self
+        if code and answer.refused:
+            raise Error(code, _OF_STEPPED.get(code, ""), index=int(np.argmax(movers.ids == answer.refused)))
+        _check_of(code, _OF_STEP)
+        return Step(answer.awake, answer.asleep, answer.caught, answer.contacts, answer.questions, answer.work)
 
 
 def _scale_of(scale: float) -> Any:

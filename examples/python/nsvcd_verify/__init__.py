@@ -19,7 +19,7 @@ from typing import Any, NamedTuple, Optional
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-__all__ = ["Kind", "Mesh", "Report", "verify"]
+__all__ = ["Kind", "Mesh", "Report", "claim", "verify"]
 
 
 class Kind(str, enum.Enum):
@@ -46,6 +46,7 @@ _PROTOTYPES = {
     "verifier_mover_init": (c_char_p, c_void_p, c_float, c_void_p, c_void_p, c_size_t, c_void_p),
     "verifier_workspace_size": (c_size_t, c_void_p, c_void_p),
     "verifier_verify": (c_char_p, c_void_p, c_void_p, c_float, c_char_p, c_size_t, c_void_p, c_void_p),
+    "verifier_claim": (None, c_void_p, c_void_p, c_float, c_void_p),
 }
 
 
@@ -169,3 +170,14 @@ def verify(certificate: Any, a: Mesh, b: Mesh, poses_a: Optional[ArrayLike] = No
     if reason is not None:
         return Report(False, reason.decode(), int(position), None, 0, 0, 0)
     return Report(True, "", int(position), _KINDS[int(kind) - 1], time, int(named_a), int(named_b))
+
+
+def claim(a: Mesh, b: Mesh, poses_a: Optional[ArrayLike] = None, poses_b: Optional[ArrayLike] = None, *,
+          times_a: Optional[ArrayLike] = None, times_b: Optional[ArrayLike] = None, scale_a: float = 1,
+          scale_b: float = 1, clearance: float = 0) -> bytes:
+    """The name of what a certificate is about, for a log of proofs: the SHA-256 of meshes, motions, scales and the
+    clearance, as nsvcd_verify_claim.h has it and `verify --claims` prints it. Arguments are those of verify."""
+    movers = _mover(a, poses_a, times_a, scale_a, "a"), _mover(b, poses_b, times_b, scale_b, "b")
+    told = _memory(32)
+    _library.verifier_claim(*(_address(mover[0]) for mover in movers), c_float(clearance), _address(told))
+    return told.tobytes()[:32]
