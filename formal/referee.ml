@@ -149,7 +149,7 @@ let judge exact clearance a b bytes =
   let size = String.length bytes in
   let at k = if k < size then Char.code bytes.[k] else 0 in
   let motion = mixed ((motion_digest a.scale a.poses + 31 * motion_digest b.scale b.poses) land 0xffffffff) (word clearance) in
-  let refused why byte = ("refused", Printf.sprintf "%s, at byte %d" why (min byte size)) in
+  let refused why byte = ("refused", if size = 0 then why else Printf.sprintf "%s, at byte %d" why (min byte size)) in
   if at 0 lsr 2 <> 1 then refused "it is no certificate of version 1" 5
   else if at 1 <> fold_8 a.mesh.digest then refused "it is about another mesh a" 5
   else if at 2 <> fold_8 b.mesh.digest then refused "it is about another mesh b" 5
