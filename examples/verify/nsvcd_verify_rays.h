@@ -40,11 +40,27 @@ typedef struct verify__reader {
   int apart;  // 1: the roots have been parted
 } verify__reader;
 
+/*@ predicate a_reader(verify__reader *r) =
+      \valid(r) && r->bits <= 8 * (SIZE_MAX / 16) && r->at <= r->bits + 64 &&
+      \valid_read(r->bytes + (0 .. (r->bits + 7) / 8 - 1)) &&
+      \separated(r, r->bytes + (0 .. (r->bits + 7) / 8 - 1)); */
+
+/*@ predicate at_work(verify__reader *r) =
+      a_reader(r) && a_mover(r->a) && a_mover(r->b) && r->count <= r->capacity &&
+      \valid(r->instants + (0 .. r->capacity - 1)); */
+
 // ---- reading
 
 // The next bits, the highest of a byte first. Past the end they are 0, and r->at exceeds r->bits.
+/*@ requires a_reader(r) && 0 <= count <= 32;
+    assigns r->at;
+    ensures r->at == \old(r->at) + count; */
 static inline uint32_t verify__read(verify__reader *r, int count) {
   uint32_t out = 0;
+  /*@ loop invariant 0 <= count <= \at(count, Pre);
+      loop invariant r->at == \at(r->at, Pre) + (\at(count, Pre) - count);
+      loop assigns count, out, r->at;
+      loop variant count; */
   for (; count > 0; count--, r->at++) {
     const int more = r->at < r->bits;
     out = 2 * out + (more ? (uint32_t)r->bytes[r->at / 8] >> (7 - r->at % 8) & 1 : 0);
@@ -58,9 +74,15 @@ static inline uint32_t verify__read(verify__reader *r, int count) {
 // becomes the last. A new one is never 0: where z is 0, |x| + |y| is half; where x and y become 0, z
 // is -half. One that is remembered is, until eight were written: it parts nothing, and no ray of it
 // is clear.
+/*@ requires a_reader(r) && r->at <= r->bits + 2;
+    assigns r->at, *(&r->normals[0][0] + (0 .. 23));
+    ensures \old(r->at) < r->at <= \old(r->at) + 57; */
 static inline void verify__read_normal(verify__reader *r) {
   double n[3];
   size_t k = 1;
+  /*@ loop invariant 1 <= k <= 8 && r->at == \at(r->at, Pre) + k - 1;
+      loop assigns k, r->at;
+      loop variant 8 - k; */
   while (k < 8 && !verify__read(r, 1)) k++;
   memcpy(n, r->normals[k % 8], sizeof n);
   if (k == 8) {
@@ -77,22 +99,34 @@ static inline void verify__read_normal(verify__reader *r) {
   memcpy(r->normals[0], n, sizeof n);
 }
 
+/*@ requires \valid_read(a + (0 .. 2)) && \valid_read(b + (0 .. 2));
+    assigns \nothing; */
 static inline double verify__dot(const double *a, const double *b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
 // No point of a node is farther from its body's origin: no coordinate of its box is larger than the
 // corner's, and 1e-6 holds the roundings.
+/*@ requires a_mover(mover) && \valid_read(node) && a_node(node, mover->mesh);
+    assigns \nothing; */
 static inline double verify__radius(const nsvcd_verify_mover *mover,
                                     const nsvcd_verify_node *node) {
   const float *low = mover->mesh->boxes + 6 * (size_t)node->box;
   double corner[3];
+  /*@ loop invariant 0 <= i <= 3;
+      loop assigns i, corner[0 .. 2];
+      loop variant 3 - i; */
   for (int i = 0; i < 3; i++) corner[i] = verify__max(-(double)low[i], (double)low[i + 3]);
   return 1.000001 * mover->scale * sqrt(verify__dot(corner, corner));
 }
 
+/*@ requires \valid_read(a) && \valid_read(b);
+    assigns \nothing; */
 static inline double verify__lengths(double radii, const nsvcd_verify_place *a,
                                      const nsvcd_verify_place *b) {
+  /*@ loop invariant 0 <= i <= 3;
+      loop assigns i, radii;
+      loop variant 3 - i; */
   for (int i = 0; i < 3; i++) radii += fabs(a->at[i]) + fabs(b->at[i]);
   return radii;
 }

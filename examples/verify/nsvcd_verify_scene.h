@@ -45,6 +45,20 @@ typedef struct nsvcd_verify_node {
   uint32_t box, first, count;  // a row of boxes; of order
 } nsvcd_verify_node;
 
+/*@ // What nsvcd_verify_mesh_init has accepted.
+    predicate a_mesh(nsvcd_verify_mesh *m) =
+      \valid_read(m) && 1 <= m->triangles <= 0x20000000 && m->vertices <= 0x60000000 &&
+      \valid_read(m->positions + (0 .. 3 * m->vertices - 1)) &&
+      \valid_read(m->indices + (0 .. 3 * m->triangles - 1)) &&
+      (\forall integer i; 0 <= i < 3 * m->triangles ==> m->indices[i] < m->vertices) &&
+      \valid(m->order + (0 .. m->triangles - 1)) &&
+      (\forall integer i; 0 <= i < m->triangles ==> m->order[i] < m->triangles) &&
+      \valid(m->boxes + (0 .. 12 * m->triangles - 7));
+    // A node of the tree of a mesh: its triangles are there, and the boxes of all below it.
+    predicate a_node(nsvcd_verify_node *n, nsvcd_verify_mesh *m) =
+      1 <= n->count && n->first + n->count <= m->triangles &&
+      n->box + 2 * n->count <= 2 * m->triangles; */
+
 // Takes a corner x to turn scale x + at.
 typedef struct nsvcd_verify_place {
   double turn[9], at[3];
@@ -69,6 +83,8 @@ typedef struct nsvcd_verify_mover {
   uint32_t base;      // the link from which it is seen, the same for both; 0, the world, for paths
 } nsvcd_verify_mover;
 
+/*@ predicate a_mover(nsvcd_verify_mover *a) = \valid_read(a) && a_mesh(a->mesh); */
+
 // Between two poses the position is linear and the rotation a slerp, the shorter way round. Both
 // ways are as long, to a rounding, where the turn is one of 180 degrees: the sign of x x' + y y' +
 // z z' + w w' decides, summed so in double, of which the products are exact.
@@ -79,9 +95,13 @@ typedef struct nsvcd_verify_path {
 } nsvcd_verify_path;
 
 // The lesser of two numbers, and the greater; fmin and fmax, which look for NaN, are calls.
+/*@ assigns \nothing;
+    ensures \result == a || \result == b; */
 static inline double verify__min(double a, double b) {
   return a < b ? a : b;
 }
+/*@ assigns \nothing;
+    ensures \result == a || \result == b; */
 static inline double verify__max(double a, double b) {
   return a > b ? a : b;
 }
@@ -89,6 +109,8 @@ static inline double verify__max(double a, double b) {
 // A double also where registers are wider (x87), for what is compared with itself computed again: a
 // knot, or it would be the next one after itself; a key to sort by, or nothing would be at its
 // place.
+/*@ assigns \nothing;
+    ensures \result == x; */
 static inline double verify__stored(double x) {
 #if FLT_EVAL_METHOD == 0 || FLT_EVAL_METHOD == 1
   return x;
@@ -150,16 +172,23 @@ static inline uint32_t verify__hash(uint32_t hash, const void *words, size_t cou
 
 // ---- meshes
 
+/*@ requires a_mesh(m) && triangle < m->triangles && k < 3;
+    assigns \nothing;
+    ensures \valid_read(\result + (0 .. 2)); */
 static inline const float *verify__corner(const nsvcd_verify_mesh *m, size_t triangle, size_t k) {
   return m->positions + 3 * (size_t)m->indices[3 * triangle + k];
 }
 
+/*@ requires a_mesh(m) && triangle < m->triangles && 0 <= axis <= 2;
+    assigns \nothing; */
 static inline double verify__sum(const nsvcd_verify_mesh *m, uint32_t triangle, int axis) {
   const double sum = verify__stored((double)verify__corner(m, triangle, 0)[axis] +
                                     (double)verify__corner(m, triangle, 1)[axis]);
   return verify__stored(sum + (double)verify__corner(m, triangle, 2)[axis]);
 }
 
+/*@ requires a_mesh(m) && i < m->triangles && j < m->triangles && 0 <= axis <= 2;
+    assigns \nothing; */
 static inline int verify__before(const nsvcd_verify_mesh *m, uint32_t i, uint32_t j, int axis) {
   const double x = verify__sum(m, i, axis);
   const double y = verify__sum(m, j, axis);
@@ -209,8 +238,15 @@ static inline void verify__cut(nsvcd_verify_mesh *m, const nsvcd_verify_node *no
   }
 }
 
+/*@ requires \valid_read(node) && \valid(child + (0 .. 1)) && \separated(node, child + (0 .. 1));
+    requires 1 < node->count <= 0x20000000 && node->box < 0x40000000 && node->first < 0x20000000;
+    assigns child[0 .. 1];
+    ensures child[0].count == node->count / 2 && child[1].count == node->count - node->count / 2;
+    ensures child[0].first == node->first && child[1].first == node->first + child[0].count;
+    ensures child[0].box == node->box + 1 && child[1].box == node->box + 2 * child[0].count; */
 static inline void verify__children(const nsvcd_verify_node *node, nsvcd_verify_node *child) {
   const uint32_t half = node->count / 2;
+  //@ assert 1 <= half && 2 * half <= node->count <= 2 * half + 1;
   const nsvcd_verify_node left = {node->box + 1, node->first, half};
   const nsvcd_verify_node right = {node->box + 2 * half, node->first + half, node->count - half};
   child[0] = left;
