@@ -244,17 +244,31 @@ static inline double verify__side(const nsvcd_verify_mover *mover, const nsvcd_v
 /*@ requires \valid_read(r) && a_mover(r->a) && a_mover(r->b) && a_visit(v, r);
     requires \valid(v + (0 .. 1)) && \separated(v + (0 .. 1), r, r->a, r->b, r->a->mesh, r->b->mesh);
     assigns v[0 .. 1];
-    ensures \result != 0 ==> a_visit(v, r) && a_visit(v + 1, r); */
+    ensures \result != 0 ==> a_visit(v, r);
+    ensures \result != 0 ==> a_visit(v + 1, r); */
 static inline int verify__descend(const verify__reader *r, verify__visit *v) {
   const int longer = verify__side(r->a, &v->a) >= verify__side(r->b, &v->b);
   const int opens_a = v->b.count == 1 || (v->a.count > 1 && longer);
-  nsvcd_verify_node *node = opens_a ? &v->a : &v->b;
+  const nsvcd_verify_node *node = opens_a ? &v->a : &v->b;
   nsvcd_verify_node child[2];
   if (node->count == 1) return 0;
   verify__children(node, child);
+  //@ assert opens_a ==> a_node(&child[0], r->a->mesh) && a_node(&child[1], r->a->mesh);
+  //@ assert !opens_a ==> a_node(&child[0], r->b->mesh) && a_node(&child[1], r->b->mesh);
   v[1] = *v;
-  *node = child[1];
-  *(opens_a ? &v[1].a : &v[1].b) = child[0];
+  //@ assert a_visit(v, r);
+  //@ assert a_visit(v + 1, r);
+  if (opens_a) {
+    v[0].a = child[1];
+    //@ assert a_visit(v, r) && a_visit(v + 1, r);
+    v[1].a = child[0];
+    //@ assert a_visit(v, r) && a_visit(v + 1, r);
+  } else {
+    v[0].b = child[1];
+    //@ assert a_visit(v, r) && a_visit(v + 1, r);
+    v[1].b = child[0];
+    //@ assert a_visit(v, r) && a_visit(v + 1, r);
+  }
   return 1;
 }
 
@@ -271,7 +285,7 @@ static inline const char *verify__walk(verify__reader *r) {
   double t0 = -1, t1 = -1;
   /*@ loop invariant 0 <= height <= VERIFY__STACK && r->at <= r->bits + 64;
       loop invariant r->count <= r->capacity;
-      loop invariant \forall integer i; 0 <= i < height ==> a_visit(stack + i, r);
+      loop invariant \forall integer i; 0 <= i < height ==> a_visit(&stack[i], r);
       loop assigns height, t0, t1, stack[0 .. VERIFY__STACK - 1], r->at, r->apart, r->count,
                    *(&r->normals[0][0] + (0 .. 23)), r->instants[0 .. r->capacity - 1]; */
   while (height > 0) {
@@ -300,7 +314,11 @@ static inline const char *verify__walk(verify__reader *r) {
     if (halves) {  // exactly: an end is a multiple of 2^-40
       v[1] = *v;
       v[1].t1 = v->t0 = 0.5 * (t0 + t1);
+      //@ assert a_visit(v + 1, r);
+      //@ assert a_visit(v, r);
     }
+    //@ assert a_visit(v + 1, r) && a_visit(v, r);
+    //@ assert \forall integer i; 0 <= i < height ==> a_visit(&stack[i], r);
     height++;
   }
   return NULL;

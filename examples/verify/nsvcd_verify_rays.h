@@ -41,13 +41,14 @@ typedef struct verify__reader {
 } verify__reader;
 
 /*@ predicate a_reader(verify__reader *r) =
-      \valid(r) && r->bits <= 8 * (SIZE_MAX / 16) && r->at <= r->bits + 64 &&
+      \valid(r) && r->bits <= 8 * (SIZE_MAX / 16) && r->at <= r->bits + 256 &&
       \valid_read(r->bytes + (0 .. (r->bits + 7) / 8 - 1)) &&
       \separated(r, r->bytes + (0 .. (r->bits + 7) / 8 - 1)); */
 
 /*@ predicate at_work(verify__reader *r) =
       a_reader(r) && a_mover(r->a) && a_mover(r->b) && r->count <= r->capacity &&
-      \valid(r->instants + (0 .. r->capacity - 1)); */
+      \valid(r->instants + (0 .. r->capacity - 1)) &&
+      \separated(r, r->a, r->b, r->a->mesh, r->b->mesh, r->instants + (0 .. r->capacity - 1)); */
 
 // ---- reading
 
@@ -74,7 +75,7 @@ static inline uint32_t verify__read(verify__reader *r, int count) {
 // becomes the last. A new one is never 0: where z is 0, |x| + |y| is half; where x and y become 0, z
 // is -half. One that is remembered is, until eight were written: it parts nothing, and no ray of it
 // is clear.
-/*@ requires a_reader(r) && r->at <= r->bits + 2;
+/*@ requires a_reader(r) && r->at <= r->bits + 192;
     assigns r->at, *(&r->normals[0][0] + (0 .. 23));
     ensures \old(r->at) < r->at <= \old(r->at) + 57; */
 static inline void verify__read_normal(verify__reader *r) {
@@ -134,16 +135,26 @@ static inline double verify__lengths(double radii, const nsvcd_verify_place *a,
 // ---- rays
 
 // A vertex of one mover in the frame of another, in units of its scale.
+/*@ requires a_mover(of) && \valid_read(of_at) && \valid_read(by) && \valid_read(by_at);
+    requires vertex < of->mesh->vertices && \valid(out + (0 .. 2));
+    requires \separated(out + (0 .. 2), by_at, by);
+    assigns out[0 .. 2]; */
 static inline void verify__seen(const nsvcd_verify_mover *of, const nsvcd_verify_place *of_at,
                                 const nsvcd_verify_mover *by, const nsvcd_verify_place *by_at,
                                 uint32_t vertex, double *out) {
   const float *x = of->mesh->positions + 3 * (size_t)vertex;
   double world[3];
+  /*@ loop invariant 0 <= i <= 3;
+      loop assigns i, world[0 .. 2];
+      loop variant 3 - i; */
   for (int i = 0; i < 3; i++) {
     const double *row = of_at->turn + 3 * i;
     world[i] = row[0] * (double)x[0] + row[1] * (double)x[1] + row[2] * (double)x[2];
     world[i] = of->scale * world[i] + (of_at->at[i] - by_at->at[i]);
   }
+  /*@ loop invariant 0 <= i <= 3;
+      loop assigns i, out[0 .. 2];
+      loop variant 3 - i; */
   for (int i = 0; i < 3; i++) {
     const double *column = by_at->turn + i;
     out[i] = column[0] * world[0] + column[3] * world[1] + column[6] * world[2];
@@ -159,6 +170,10 @@ typedef struct verify__extent {
 
 // Does a ray from y along d leave (1) or enter (-1) through a triangle, or miss it (0)? 2: that is
 // not clear, by the margin.
+/*@ requires a_mesh(m) && triangle < m->triangles && \valid_read(e);
+    requires \valid_read(y + (0 .. 2)) && \valid_read(d + (0 .. 2));
+    assigns \nothing;
+    ensures -1 <= \result <= 2; */
 static inline int verify__crosses(const nsvcd_verify_mesh *m, uint32_t triangle, const double *y,
                                   const double *d, const verify__extent *e) {
   const double length = sqrt(verify__dot(d, d));
@@ -166,7 +181,13 @@ static inline int verify__crosses(const nsvcd_verify_mesh *m, uint32_t triangle,
   double p[3][3], cross[3], edge[3], normal[3] = {0, 0, 0}, ahead = -VERIFY__BEYOND;
   int left = 0;
   int right = 0;
+  /*@ loop invariant 0 <= k <= 3;
+      loop assigns k, ahead, p[0 .. 2][0 .. 2];
+      loop variant 3 - k; */
   for (uint32_t k = 0; k < 3; k++) {
+    /*@ loop invariant 0 <= i <= 3;
+        loop assigns i, p[k][0 .. 2];
+        loop variant 3 - i; */
     for (int i = 0; i < 3; i++) p[k][i] = (double)verify__corner(m, triangle, k)[i] - y[i];
     ahead = verify__max(ahead, verify__dot(p[k], d));
   }
@@ -177,9 +198,15 @@ static inline int verify__crosses(const nsvcd_verify_mesh *m, uint32_t triangle,
   // most, and a side is told only where |d| is over two margins. The line above trusts d: a ray's is
   // exact, and of an edge 0 proves nothing. `rounding` is det's own, in units of |d|: it is a sum of
   // products of three lengths, good to 2e-15 of these.
+  /*@ loop invariant -1 <= k <= 2 && 0 <= left <= 2 - k && 0 <= right <= 2 - k;
+      loop assigns k, left, right, cross[0 .. 2], edge[0 .. 2], normal[0 .. 2];
+      loop variant k; */
   for (int k = 2; k >= 0; k--) {
     const double *u = p[k];
     const double *v = p[(k + 1) % 3];
+    /*@ loop invariant 0 <= i <= 3;
+        loop assigns i, cross[0 .. 2], edge[0 .. 2], normal[0 .. 2];
+        loop variant 3 - i; */
     for (int i = 0; i < 3; i++) {
       cross[i] = u[(i + 1) % 3] * v[(i + 2) % 3] - u[(i + 2) % 3] * v[(i + 1) % 3];
       edge[i] = v[i] - u[i];
@@ -187,8 +214,9 @@ static inline int verify__crosses(const nsvcd_verify_mesh *m, uint32_t triangle,
     }
     const double off = length * (e->margin * sqrt(verify__dot(edge, edge)) + rounding) +
                        2 * e->margin * sqrt(verify__dot(cross, cross));
-    left += verify__dot(d, cross) > off;
-    right += verify__dot(d, cross) < -off;
+    const double side = verify__dot(d, cross);
+    if (side > off) left++;
+    if (side < -off) right++;
   }
   if (left > 0 && right > 0) return 0;
   if (left < 3 && right < 3) return 2;
@@ -202,9 +230,15 @@ static inline int verify__crosses(const nsvcd_verify_mesh *m, uint32_t triangle,
 
 // Does the line of a ray miss a box by a margin? If something across both of them parts them. The
 // line of a normal of 0 misses nothing: 0 is not more than 0.
+/*@ requires \valid_read(box + (0 .. 5));
+    requires \valid_read(y + (0 .. 2)) && \valid_read(d + (0 .. 2));
+    assigns \nothing; */
 static inline int verify__misses(const float *box, const double *y, const double *d,
                                  double margin) {
   const double most = margin * sqrt(verify__dot(d, d));
+  /*@ loop invariant 0 <= i <= 3;
+      loop assigns i;
+      loop variant 3 - i; */
   for (int i = 0; i < 3; i++) {
     const int j = (i + 1) % 3;
     const int k = (i + 2) % 3;
@@ -249,6 +283,8 @@ static inline int64_t verify__wound(const nsvcd_verify_mesh *m) {
   return sum;
 }
 
+/*@ requires a_mover(of) && a_mover(by) && \valid_read(of_at) && \valid_read(by_at);
+    assigns \nothing; */
 static inline verify__extent verify__extent_of(const nsvcd_verify_mover *of,
                                                const nsvcd_verify_place *of_at,
                                                const nsvcd_verify_mover *by,
