@@ -9,7 +9,7 @@ for tool in frama-c why3 cvc4; do
 done
 # Two lists, at the same time.
 first="verify__min verify__max verify__stored verify__corner verify__sum verify__before verify__children verify__read verify__read_normal
-verify__dot verify__radius verify__lengths verify__side verify__misses"
+verify__dot verify__radius verify__lengths verify__side verify__misses verify__descend"
 second="verify__seen verify__crosses verify__extent_of verify__most verify__aside verify__deviation_along verify__parts"
 here=$(mktemp -d) && trap 'rm -rf "$here"' EXIT
 
