@@ -10,7 +10,10 @@ done
 # Two lists, at the same time.
 first="verify__min verify__max verify__stored verify__corner verify__sum verify__before verify__children verify__read verify__read_normal
 verify__dot verify__radius verify__lengths verify__side verify__misses verify__descend"
-second="verify__seen verify__crosses verify__extent_of verify__most verify__aside verify__deviation_along verify__parts"
+# What reads a motion, which is behind a void *: with the casts of the memory model.
+casts="verify__path_place verify__path_next verify__path_deviation"
+second="verify__seen verify__crosses verify__extent_of verify__most verify__aside verify__deviation_along verify__parts
+verify__knot verify__pose_before verify__share verify__turn verify__matrix verify__wound verify__corner_seen verify__extent_in verify__near"
 here=$(mktemp -d) && trap 'rm -rf "$here"' EXIT
 
 # Debian's CVC4 has no floating-point numbers: here it knows nothing about them, so that nothing rests on their values.
@@ -25,21 +28,21 @@ printf '[main]\nmagic = 14\nmemlimit = 2000\ntimelimit = 20\nrunning_provers_max
 command = "%s --stats --tlimit=%%t000 --lang=smt2 %%f"\neditor = ""\nin_place = false\ninteractive = false\n' \
   "$here/no_floats.drv" "$(command -v cvc4)" >"$here/why3.conf"
 
-# prove FOLDER FUNCTIONS: of the checker in FOLDER; the log to stdout.
+# prove FOLDER FUNCTIONS [MODEL]: of the checker in FOLDER; the log to stdout.
 prove() {
   WHY3CONFIG=$here/why3.conf nice -n 15 frama-c -machdep gcc_x86_64 -warn-special-float none -cpp-extra-args="-I$1" formal/wp/all.c \
-    -instantiate -then -wp -wp-rte -wp-fct "$(echo $2 | tr ' ' ',')" -wp-prover "CVC4:1.8:no floats" -wp-timeout 20 -wp-par 1 2>&1
+    -instantiate -then -wp -wp-model ${3:-Typed} -wp-rte -wp-fct "$(echo $2 | tr ' ' ',')" -wp-prover "CVC4:1.8:no floats" -wp-timeout 20 -wp-par 1 2>&1
 }
 # lines LOG FUNCTIONS: a line for each function; 1 if one is not proven.
 lines() {
   local bad=0 name
   grep -q '^\[wp\] Proved goals' "$1" || { cat "$1"; return 1; }
   for name in $2; do
-    # goals are named typed_verify_NAME_ and typed_verify__NAME_call_
+    # goals are named typed_verify_NAME_... and typed_verify__NAME_call_...
     awk -v name="${name#verify__}" '
       match($0, /Goal typed_[a-z_]*/) {
         goal = substr($0, RSTART + 5)
-        sub(/^typed_verify__?/, "", goal)
+        sub(/^typed_(cast_)?verify__?/, "", goal)
         if (goal ~ "^" name "_(call|assert|assigns|ensures|exits|loop|terminates)") { all++; proven += / : Valid/ }
       }
       END { print "wp: verify__" name ": " proven + 0 " / " all + 0; exit !(all && proven == all) }' "$1" || bad=1
@@ -68,8 +71,10 @@ if [ $# -gt 0 ]; then
 fi
 prove examples/verify "$second" >"$here/second" &
 prove examples/verify "$first" >"$here/first"
+prove examples/verify "$casts" Typed+Cast >"$here/casts"
 wait
 bad=0
 lines "$here/first" "$first" || bad=1
 lines "$here/second" "$second" || bad=1
+lines "$here/casts" "$casts" || bad=1
 exit $bad

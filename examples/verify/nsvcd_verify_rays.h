@@ -277,8 +277,14 @@ static inline int verify__cast(const verify__reader *r, const nsvcd_verify_mesh 
 }
 
 // How often closed components wind about where the ray begins.
+/*@ requires a_mesh(m) && \valid_read(m->open + (0 .. m->vertices - 1)) && \valid_read(m->sums + (0 .. m->vertices - 1));
+    assigns \nothing; */
 static inline int64_t verify__wound(const nsvcd_verify_mesh *m) {
   int64_t sum = 0;
+  /*@ loop invariant 0 <= v <= m->vertices;
+      loop invariant -0x80000000 * v <= sum <= 0x7fffffff * v;
+      loop assigns v, sum;
+      loop variant m->vertices - v; */
   for (size_t v = 0; v < m->vertices; v++) sum += m->open[v] ? 0 : m->sums[v];
   return sum;
 }
@@ -330,13 +336,22 @@ typedef struct verify__pair {
   uint32_t triangle[2];
 } verify__pair;
 
+/*@ predicate a_pair(verify__pair *p) =
+      \valid_read(p) && a_mover(p->mover[0]) && a_mover(p->mover[1]) &&
+      p->triangle[0] < p->mover[0]->mesh->triangles && p->triangle[1] < p->mover[1]->mesh->triangles; */
+
 // A corner of the triangle of one of them, in the frame of another.
+/*@ requires a_pair(p) && 0 <= of <= 1 && 0 <= by <= 1 && k < 3 && \valid(out + (0 .. 2));
+    requires \separated(out + (0 .. 2), p, p->mover[0], p->mover[1]);
+    assigns out[0 .. 2]; */
 static inline void verify__corner_seen(const verify__pair *p, int of, int by, uint32_t k,
                                        double *out) {
   const uint32_t vertex = p->mover[of]->mesh->indices[3 * (size_t)p->triangle[of] + k];
   verify__seen(p->mover[of], &p->at[of], p->mover[by], &p->at[by], vertex, out);
 }
 
+/*@ requires a_pair(p) && 0 <= of <= 1 && 0 <= by <= 1;
+    assigns \nothing; */
 static inline verify__extent verify__extent_in(const verify__pair *p, int of, int by) {
   return verify__extent_of(p->mover[of], &p->at[of], p->mover[by], &p->at[by]);
 }
@@ -344,6 +359,9 @@ static inline verify__extent verify__extent_in(const verify__pair *p, int of, in
 // Whose edge, and which: it passes through the other's triangle, if that is crossed by rays from
 // both of its ends to the other end, one outwards, one inwards: so each end has the triangle before
 // it, and it is between them.
+/*@ requires a_reader(r) && r->at <= r->bits + 128 && a_pair(p);
+    requires \separated(r, p, p->mover[0], p->mover[1], p->mover[0]->mesh, p->mover[1]->mesh);
+    assigns r->at; */
 static inline const char *verify__pierced(verify__reader *r, const verify__pair *p) {
   const int of = (int)verify__read(r, 1);
   const uint32_t edge = verify__read(r, 2);
@@ -353,6 +371,9 @@ static inline const char *verify__pierced(verify__reader *r, const verify__pair 
   if (edge == 3) return "it names an edge that there is not";
   verify__corner_seen(p, of, !of, edge, from);
   verify__corner_seen(p, of, !of, (edge + 1) % 3, to);
+  /*@ loop invariant 0 <= i <= 3;
+      loop assigns i, there[0 .. 2], back[0 .. 2];
+      loop variant 3 - i; */
   for (int i = 0; i < 3; i++) {
     there[i] = to[i] - from[i];
     back[i] = -there[i];
@@ -366,16 +387,28 @@ static inline const char *verify__pierced(verify__reader *r, const verify__pair 
 // A point of each triangle, by two numbers of 16 bits: shares of the way from its first corner to
 // the second, and from there to the third. Weights are none below 0 and sum to 1, to a rounding, so
 // the points are of the triangles. Both are off by half a margin at most.
+/*@ requires a_reader(r) && r->at <= r->bits + 128 && a_pair(p);
+    requires \separated(r, p, p->mover[0], p->mover[1], p->mover[0]->mesh, p->mover[1]->mesh);
+    assigns r->at; */
 static inline const char *verify__near(verify__reader *r, const verify__pair *p) {
   double apart[3] = {0, 0, 0};
+  /*@ loop invariant 0 <= k <= 2 && r->at == \at(r->at, Pre) + 32 * k;
+      loop assigns k, r->at, apart[0 .. 2];
+      loop variant 2 - k; */
   for (int k = 0; k < 2; k++) {
     const double v = (double)verify__read(r, 16) / 65535;
     const double w = (double)verify__read(r, 16) / 65535;
     const double sign = k ? -1 : 1;
     const double weight[3] = {sign * (1 - v), sign * v * (1 - w), sign * v * w};
+    /*@ loop invariant 0 <= c <= 3;
+        loop assigns c, apart[0 .. 2];
+        loop variant 3 - c; */
     for (uint32_t c = 0; c < 3; c++) {
       double x[3];
       verify__corner_seen(p, k, 1, c, x);
+      /*@ loop invariant 0 <= i <= 3;
+          loop assigns i, apart[0 .. 2];
+          loop variant 3 - i; */
       for (int i = 0; i < 3; i++) apart[i] += weight[c] * x[i];
     }
   }

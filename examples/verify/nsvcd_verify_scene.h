@@ -402,17 +402,30 @@ static inline const char *nsvcd_verify_mesh_init(const float *positions, size_t 
   return NULL;
 }
 
+/*@ // What nsvcd_verify_path_init has accepted.
+    predicate a_path(nsvcd_verify_path *p) =
+      \valid_read(p) && 1 <= p->count <= 65536 && \valid_read(p->poses + (0 .. 7 * p->count - 1)) &&
+      (p->times == \null || \valid_read(p->times + (0 .. p->count - 1))); */
+
 // ---- paths
 
+/*@ requires a_path(p) && k < p->count;
+    assigns \nothing; */
 static inline double verify__knot(const nsvcd_verify_path *p, size_t k) {
   if (p->times) return (double)p->times[k];
   return verify__stored((double)k / (double)(p->count - 1));
 }
 
 // The last pose, but for the last one, that is not after a time.
+/*@ requires a_path(p);
+    assigns \nothing;
+    ensures \result < p->count && (p->count > 1 ==> \result + 1 < p->count); */
 static inline size_t verify__pose_before(const nsvcd_verify_path *p, double t) {
   size_t low = 0;
   size_t high = p->count - 1;
+  /*@ loop invariant 0 <= low <= high < p->count && (p->count > 1 ==> low < high);
+      loop assigns low, high;
+      loop variant high - low; */
   while (high > low + 1) {
     const size_t middle = (low + high) / 2;
     if (verify__knot(p, middle) > t)
@@ -424,15 +437,23 @@ static inline size_t verify__pose_before(const nsvcd_verify_path *p, double t) {
 }
 
 // The share of the way from pose k to the next one between two times, which may be t0 = knot k.
+/*@ requires a_path(p) && (p->count > 1 ==> k + 1 < p->count);
+    assigns \nothing; */
 static inline double verify__share(const nsvcd_verify_path *p, size_t k, double t0, double t1) {
   return p->count > 1 ? (t1 - t0) / (verify__knot(p, k + 1) - verify__knot(p, k)) : 0;
 }
 
 // The quaternions of pose k and the next one, unit, on the same side, and the angle of the turn.
+/*@ requires a_path(p) && k < p->count && (p->count > 1 ==> k + 1 < p->count);
+    requires \valid(from + (0 .. 3)) && \valid(to + (0 .. 3)) && \separated(from + (0 .. 3), to + (0 .. 3));
+    assigns from[0 .. 3], to[0 .. 3]; */
 static inline double verify__turn(const nsvcd_verify_path *p, size_t k, double *from, double *to) {
   const float *a = p->poses + 7 * k + 3;
   const float *b = p->count > 1 ? a + 7 : a;
   double dot = 0, square_a = 0, square_b = 0, apart = 0, together = 0;
+  /*@ loop invariant 0 <= i <= 4;
+      loop assigns i, dot, square_a, square_b;
+      loop variant 4 - i; */
   for (int i = 0; i < 4; i++) {
     dot = verify__stored(dot + (double)a[i] * (double)b[i]);
     square_a += (double)a[i] * (double)a[i];
@@ -440,6 +461,9 @@ static inline double verify__turn(const nsvcd_verify_path *p, size_t k, double *
   }
   const double length_a = sqrt(square_a);
   const double length_b = dot < 0 ? -sqrt(square_b) : sqrt(square_b);
+  /*@ loop invariant 0 <= i <= 4;
+      loop assigns i, apart, together, from[0 .. 3], to[0 .. 3];
+      loop variant 4 - i; */
   for (int i = 0; i < 4; i++) {
     from[i] = (double)a[i] / length_a;
     to[i] = (double)b[i] / length_b;
@@ -451,8 +475,13 @@ static inline double verify__turn(const nsvcd_verify_path *p, size_t k, double *
 
 // The rotation matrix of a quaternion of any length but 0: one that was checked has about 1, a
 // slerp's below the sine of half its turn, which is over 1e-7.
+/*@ requires \valid_read(q + (0 .. 3)) && \valid(m + (0 .. 8)) && \separated(q + (0 .. 3), m + (0 .. 8));
+    assigns m[0 .. 8]; */
 static inline void verify__matrix(const double *q, double *m) {
   const double square = q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3];
+  /*@ loop invariant 0 <= i <= 3;
+      loop assigns i, m[0 .. 8];
+      loop variant 3 - i; */
   for (int i = 0; i < 3; i++) {
     const int j = (i + 1) % 3;
     const int k = (i + 2) % 3;
@@ -462,6 +491,9 @@ static inline void verify__matrix(const double *q, double *m) {
   }
 }
 
+/*@ requires a_path((nsvcd_verify_path *)motion) && \valid(out);
+    requires \separated(out, (nsvcd_verify_path *)motion);
+    assigns *out; */
 static inline void verify__path_place(const void *motion, double t, nsvcd_verify_place *out) {
   const nsvcd_verify_path *p = (const nsvcd_verify_path *)motion;
   const size_t k = verify__pose_before(p, t);
@@ -471,12 +503,20 @@ static inline void verify__path_place(const void *motion, double t, nsvcd_verify
   double q[4], to[4];
   const double half = 0.5 * verify__turn(p, k, q, to);
   const int turns = half > 1e-7;  // below, a line is as good: a turn off by less than half^3
+  /*@ loop invariant 0 <= i <= 3;
+      loop assigns i, out->at[0 .. 2];
+      loop variant 3 - i; */
   for (int i = 0; i < 3; i++) out->at[i] = (1 - u) * (double)a[i] + u * (double)b[i];
+  /*@ loop invariant 0 <= i <= 4;
+      loop assigns i, q[0 .. 3];
+      loop variant 4 - i; */
   for (int i = 0; i < 4; i++)
     q[i] = turns ? sin((1 - u) * half) * q[i] + sin(u * half) * to[i] : (1 - u) * q[i] + u * to[i];
   verify__matrix(q, out->turn);
 }
 
+/*@ requires a_path((nsvcd_verify_path *)motion);
+    assigns \nothing; */
 static inline double verify__path_next(const void *motion, double t) {
   const nsvcd_verify_path *p = (const nsvcd_verify_path *)motion;
   return p->count > 1 ? verify__knot(p, verify__pose_before(p, t) + 1) : 1;
@@ -489,6 +529,9 @@ static inline double verify__path_next(const void *motion, double t) {
 // and t1 are neighbours, half way may be t1 (ties go to even), the knot at the end, and the pose
 // one too late. Then t1 - t0 < 1.2e-16, of a stretch of 0.99e-7 at least: a turn by less than 4e-9,
 // a true deviation below 2e-18 r, which the margin, 1e-10 r, holds.
+/*@ requires a_path((nsvcd_verify_path *)motion) && \valid(deviation + (0 .. 5));
+    requires \separated(deviation + (0 .. 5), (nsvcd_verify_path *)motion);
+    assigns deviation[1 .. 5]; */
 static inline void verify__path_deviation(const void *motion, double t0, double t1,
                                           double *deviation) {
   const nsvcd_verify_path *p = (const nsvcd_verify_path *)motion;
@@ -497,12 +540,18 @@ static inline void verify__path_deviation(const void *motion, double t0, double 
   const double h = verify__share(p, k, t0, t1) * verify__turn(p, k, from, to);
   double *axis = deviation + 3;
   double square = 0;
+  /*@ loop invariant 0 <= i <= 3;
+      loop assigns i, square, deviation[3 .. 5];
+      loop variant 3 - i; */
   for (int i = 0; i < 3; i++) {
     const int j = (i + 1) % 3;
     const int l = (i + 2) % 3;
     axis[i] = from[3] * to[i] - to[3] * from[i] - (from[j] * to[l] - from[l] * to[j]);
     square += axis[i] * axis[i];
   }
+  /*@ loop invariant 0 <= i <= 3;
+      loop assigns i, deviation[3 .. 5];
+      loop variant 3 - i; */
   for (int i = 0; i < 3 && square > 0; i++) axis[i] /= sqrt(square);
   if (square > 0)
     deviation[2] = 0.1250001 * h * h;
