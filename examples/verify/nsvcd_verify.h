@@ -314,11 +314,7 @@ static inline const char *verify__walk(verify__reader *r) {
     if (halves) {  // exactly: an end is a multiple of 2^-40
       v[1] = *v;
       v[1].t1 = v->t0 = 0.5 * (t0 + t1);
-      //@ assert a_visit(v + 1, r);
-      //@ assert a_visit(v, r);
     }
-    //@ assert a_visit(v + 1, r) && a_visit(v, r);
-    //@ assert \forall integer i; 0 <= i < height ==> a_visit(&stack[i], r);
     height++;
   }
   return NULL;
