@@ -65,7 +65,8 @@ END
   exit $survived
 fi
 if [ $# -gt 0 ]; then
-  prove examples/verify "$*" >"$here/log"
+  case " $casts " in *" $1 "*) model=Typed+Cast ;; esac
+  prove examples/verify "$*" $model >"$here/log"
   lines "$here/log" "$*"
   exit
 fi
