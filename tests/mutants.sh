@@ -345,8 +345,8 @@ verify: edges that all close|if (balance != 0) m->open|if (0) m->open
 verify: edges one way|? 1 : weld[m->indices[e]] > weld[to] ? -1 : 0;|? 1 : weld[m->indices[e]] > weld[to] ? 1 : 0;
 verify: half the deviation|deviation[2] = 0.1250001 * h * h;|deviation[2] = 0.06 * h * h;
 verify: turns of half the angle|return 4 * atan2(|return 2 * atan2(
-verify: the first child alone|*node = child[1];\n  *(opens_a ? \&v[1].a : \&v[1].b) = child[0];|*node = child[0];\n  *(opens_a ? \&v[1].a : \&v[1].b) = child[0];
-verify: the second child alone|*node = child[1];|*node = child[1]; child[0] = child[1];
+verify: the first child alone|v[0].a = child[1];|v[0].a = child[0];
+verify: the second child alone|v[1].b = child[0];|v[1].b = child[1];
 verify: the first half alone|v[1].t1 = v->t0 = 0.5 * (t0 + t1);|v[1].t1 = v->t1 = 0.5 * (t0 + t1);
 verify: the second half alone|v[1].t1 = v->t0 = 0.5 * (t0 + t1);|v[1].t0 = v->t0 = 0.5 * (t0 + t1);
 verify: a walk that ends early|while (height > 0) {\n    verify__visit *v|while (height > 0 \&\& r->at < r->bits - 8) {\n    verify__visit *v

@@ -9,7 +9,7 @@ and how much text there is; exit status 1 if something is not. That a room uses 
   names      no private name is a public one but for an underscore
   paths      the files that it names are there, of .md files too
   links      of .md files: the file is there, and so is the heading that is named behind a #
-  counts     the lines of the checker are as many as README says, to a hundred
+  counts     the lines of the checker, without its contracts for formal/wp.sh, are as many as README says, to a hundred
   README     is a page: 110 lines at most, and 25 numbers in its text
   tables     no row of a comment's table is cut, as a formatter does: a word or two at the margin, and the rest below
 """
@@ -155,7 +155,8 @@ def miscounted() -> list[str]:
     said = re.search(r"([\d,]+) lines in four headers", (SRC.parent / "README.md").read_text(encoding="utf-8"))
     headers = sorted((SRC.parent / "examples/verify").glob("nsvcd_verify*.h"))
     headers = [path for path in headers if path.stem != "nsvcd_verify_claim"]  # no proof rests on it
-    lines = sum(path.read_text(encoding="utf-8").count("\n") for path in headers)
+    contracts = re.compile(r"^ */\*@.*?\*/\n|^ *//@[^\n]*\n", re.S | re.M)
+    lines = sum(contracts.sub("", path.read_text(encoding="utf-8")).count("\n") for path in headers)
     if said and len(headers) == 4 and abs(int(said[1].replace(",", "")) - lines) <= 100:
         return []
     return [f"the checker has {lines} lines in {len(headers)} headers, README says {said and said[1]} in four"]

@@ -72,21 +72,33 @@ typedef struct verify__visit {
   double t0, t1;
 } verify__visit;
 
+/*@ predicate a_visit(verify__visit *v, verify__reader *r) =
+      \valid_read(v) && a_node(&v->a, r->a->mesh) && a_node(&v->b, r->b->mesh); */
+
 // ---- planes
 
 // The most of n.(s R x) over a node. Where R is not finite no height of a corner is, so that it does
 // not matter that one after a NaN takes its place: of what is not finite nothing is parted.
+/*@ requires a_mover(mover) && \valid_read(node) && a_node(node, mover->mesh);
+    requires \valid_read(turn + (0 .. 8)) && \valid_read(n + (0 .. 2));
+    assigns \nothing; */
 static inline double verify__most(const nsvcd_verify_mover *mover, const nsvcd_verify_node *node,
                                   const double *turn, const double *n, int exact) {
   const nsvcd_verify_mesh *m = mover->mesh;
   const float *low = m->boxes + 6 * (size_t)node->box;
   double way[3], most = 0;
+  /*@ loop invariant 0 <= i <= 3;
+      loop assigns i, most, way[0 .. 2];
+      loop variant 3 - i; */
   for (int i = 0; i < 3; i++) {
     way[i] = mover->scale * (n[0] * turn[i] + n[1] * turn[3 + i] + n[2] * turn[6 + i]);
     most += way[i] * (double)low[way[i] > 0 ? i + 3 : i];
   }
   if (!exact || node->count > VERIFY__EXACT) return most;
   most = -VERIFY__BEYOND;
+  /*@ loop invariant 0 <= i <= 3 * node->count;
+      loop assigns i, most;
+      loop variant 3 * node->count - i; */
   for (uint32_t i = 0; i < 3 * node->count; i++) {
     const float *x = verify__corner(m, m->order[node->first + i / 3], i % 3);
     const double along = way[0] * (double)x[0] + way[1] * (double)x[1] + way[2] * (double)x[2];
@@ -96,19 +108,31 @@ static inline double verify__most(const nsvcd_verify_mover *mover, const nsvcd_v
 }
 
 // No point of a node is farther from the line through its body's origin along a unit axis.
+/*@ requires a_mover(mover) && \valid_read(node) && a_node(node, mover->mesh);
+    requires \valid_read(axis + (0 .. 2));
+    assigns \nothing; */
 static inline double verify__aside(const nsvcd_verify_mover *mover, const nsvcd_verify_node *node,
                                    const double *axis, int exact) {
   const nsvcd_verify_mesh *m = mover->mesh;
   const float *low = m->boxes + 6 * (size_t)node->box;
   const int corners = exact && node->count <= VERIFY__EXACT;
   double off[3], most = 0;
+  /*@ loop invariant 0 <= c <= 3 * node->count;
+      loop assigns c, most, off[0 .. 2];
+      loop variant 3 * node->count - c; */
   for (uint32_t c = 0; c < (corners ? 3 * node->count : 1); c++) {
     const float *x = verify__corner(m, m->order[node->first + c / 3], c % 3);
     double middle[3], half[3];
+    /*@ loop invariant 0 <= i <= 3;
+        loop assigns i, middle[0 .. 2], half[0 .. 2];
+        loop variant 3 - i; */
     for (int i = 0; i < 3; i++) {
       middle[i] = corners ? (double)x[i] : 0.5 * ((double)low[i] + (double)low[i + 3]);
       half[i] = corners ? 0 : 0.5 * ((double)low[i + 3] - (double)low[i]);
     }
+    /*@ loop invariant 0 <= i <= 3;
+        loop assigns i, off[0 .. 2];
+        loop variant 3 - i; */
     for (int i = 0; i < 3; i++) {
       const int j = (i + 1) % 3;
       const int k = (i + 2) % 3;
@@ -121,12 +145,21 @@ static inline double verify__aside(const nsvcd_verify_mover *mover, const nsvcd_
 }
 
 // What the points of a node deviate along a normal, from a place on.
+/*@ requires a_mover(mover) && \valid_read(node) && a_node(node, mover->mesh);
+    requires \valid_read(at) && \valid_read(deviation + (0 .. 5)) && \valid_read(n + (0 .. 2));
+    assigns \nothing; */
 static inline double verify__deviation_along(const nsvcd_verify_mover *mover,
                                              const nsvcd_verify_node *node,
                                              const nsvcd_verify_place *at, const double *deviation,
                                              const double *n, int exact) {
   double axis[3], across[3];
+  /*@ loop invariant 0 <= i <= 3;
+      loop assigns i, axis[0 .. 2];
+      loop variant 3 - i; */
   for (int i = 0; i < 3; i++) axis[i] = verify__dot(at->turn + 3 * i, deviation + 3);
+  /*@ loop invariant 0 <= i <= 3;
+      loop assigns i, across[0 .. 2];
+      loop variant 3 - i; */
   for (int i = 0; i < 3; i++)
     across[i] = n[(i + 1) % 3] * axis[(i + 2) % 3] - n[(i + 2) % 3] * axis[(i + 1) % 3];
   const double turn = deviation[2] * verify__aside(mover, node, deviation + 3, exact);
@@ -135,6 +168,9 @@ static inline double verify__deviation_along(const nsvcd_verify_mover *mover,
 }
 
 // Does the plane of the last normal part two nodes at all instants and between them?
+/*@ requires \valid_read(r) && a_mover(r->a) && a_mover(r->b) && a_visit(v, r);
+    requires \valid_read(r->instants + (0 .. r->count - 1));
+    assigns \nothing; */
 static inline int verify__parts(const verify__reader *r, const verify__visit *v, int exact) {
   const double *n = r->normals[0];
   const double back[3] = {-n[0], -n[1], -n[2]};
@@ -146,13 +182,20 @@ static inline int verify__parts(const verify__reader *r, const verify__visit *v,
   double last = VERIFY__BEYOND;
   double last_lengths = 0;
   double deviation = 0;
-  for (const verify__instant *at = r->instants; at < r->instants + r->count; at++) {
+  /*@ loop invariant 0 <= i <= r->count;
+      loop assigns i, last, last_lengths, deviation;
+      loop variant r->count - i; */
+  for (size_t i = 0; i < r->count; i++) {
+    const verify__instant *at = &r->instants[i];
     const double lengths = verify__lengths(ra + rb + r->clearance + reach, &at->a, &at->b);
     if (!(lengths < VERIFY__BEYOND)) return 0;  // a maximum would lose a NaN
     const double margin = VERIFY__MARGIN * verify__max(lengths, last_lengths);
     double gap = -verify__most(r->a, &v->a, at->a.turn, back, exact);
     gap -= verify__most(r->b, &v->b, at->b.turn, n, exact);
-    for (int i = 0; i < 3; i++) gap += n[i] * (at->a.at[i] - at->b.at[i]);
+    /*@ loop invariant 0 <= k <= 3;
+        loop assigns k, gap;
+        loop variant 3 - k; */
+    for (int k = 0; k < 3; k++) gap += n[k] * (at->a.at[k] - at->b.at[k]);
     const double least = length * (r->clearance + margin) + deviation;
     if (!(gap > least && last > least && gap < VERIFY__BEYOND)) return 0;
     last = gap;
@@ -166,6 +209,9 @@ static inline int verify__parts(const verify__reader *r, const verify__visit *v,
 // ---- the walk
 
 // Places both bodies at t0, at t1, and at all knots between. 0: there is no room.
+/*@ requires at_work(r);
+    assigns r->count, r->instants[0 .. r->capacity - 1];
+    ensures r->count <= r->capacity; */
 static inline int verify__instants(verify__reader *r, double t0, double t1) {
   double t = t0;
   for (r->count = 0; r->count < r->capacity; t = verify__min(t, t1)) {
@@ -183,27 +229,53 @@ static inline int verify__instants(verify__reader *r, double t0, double t1) {
 }
 
 // The longest side of a node's box.
+/*@ requires a_mover(mover) && \valid_read(node) && a_node(node, mover->mesh);
+    assigns \nothing; */
 static inline double verify__side(const nsvcd_verify_mover *mover, const nsvcd_verify_node *node) {
   const float *low = mover->mesh->boxes + 6 * (size_t)node->box;
   double most = 0;
+  /*@ loop invariant 0 <= i <= 3;
+      loop assigns i, most;
+      loop variant 3 - i; */
   for (int i = 0; i < 3; i++) most = verify__max(most, (double)low[i + 3] - (double)low[i]);
   return verify__stored(mover->scale * most);
 }
 
 // Puts two visits in place of one: v, and the one after it on the stack, which comes first.
+/*@ requires \valid_read(r) && a_mover(r->a) && a_mover(r->b) && a_visit(v, r);
+    requires \valid(v + (0 .. 1)) && \separated(v + (0 .. 1), r, r->a, r->b, r->a->mesh, r->b->mesh);
+    assigns v[0 .. 1];
+    ensures \result != 0 ==> a_visit(v, r);
+    ensures \result != 0 ==> a_visit(v + 1, r); */
 static inline int verify__descend(const verify__reader *r, verify__visit *v) {
   const int longer = verify__side(r->a, &v->a) >= verify__side(r->b, &v->b);
   const int opens_a = v->b.count == 1 || (v->a.count > 1 && longer);
-  nsvcd_verify_node *node = opens_a ? &v->a : &v->b;
+  const nsvcd_verify_node *node = opens_a ? &v->a : &v->b;
   nsvcd_verify_node child[2];
   if (node->count == 1) return 0;
   verify__children(node, child);
+  //@ assert opens_a ==> a_node(&child[0], r->a->mesh) && a_node(&child[1], r->a->mesh);
+  //@ assert !opens_a ==> a_node(&child[0], r->b->mesh) && a_node(&child[1], r->b->mesh);
   v[1] = *v;
-  *node = child[1];
-  *(opens_a ? &v[1].a : &v[1].b) = child[0];
+  //@ assert a_visit(v, r);
+  //@ assert a_visit(v + 1, r);
+  if (opens_a) {
+    v[0].a = child[1];
+    //@ assert a_visit(v, r) && a_visit(v + 1, r);
+    v[1].a = child[0];
+    //@ assert a_visit(v, r) && a_visit(v + 1, r);
+  } else {
+    v[0].b = child[1];
+    //@ assert a_visit(v, r) && a_visit(v + 1, r);
+    v[1].b = child[0];
+    //@ assert a_visit(v, r) && a_visit(v + 1, r);
+  }
   return 1;
 }
 
+/*@ requires at_work(r) && r->at <= r->bits + 64;
+    assigns r->at, r->apart, r->count, *(&r->normals[0][0] + (0 .. 23)),
+            r->instants[0 .. r->capacity - 1]; */
 static inline const char *verify__walk(verify__reader *r) {
   verify__visit stack[VERIFY__STACK];
   size_t height = 1;
@@ -212,6 +284,11 @@ static inline const char *verify__walk(verify__reader *r) {
   stack->b.count = (uint32_t)r->b->mesh->triangles;
   stack->t1 = 1;
   double t0 = -1, t1 = -1;
+  /*@ loop invariant 0 <= height <= VERIFY__STACK && r->at <= r->bits + 64;
+      loop invariant r->count <= r->capacity;
+      loop invariant \forall integer i; 0 <= i < height ==> a_visit(&stack[i], r);
+      loop assigns height, t0, t1, stack[0 .. VERIFY__STACK - 1], r->at, r->apart, r->count,
+                   *(&r->normals[0][0] + (0 .. 23)), r->instants[0 .. r->capacity - 1]; */
   while (height > 0) {
     verify__visit *v = &stack[height - 1];
     if (v->t0 != t0 || v->t1 != t1) {

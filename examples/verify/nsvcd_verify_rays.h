@@ -40,11 +40,28 @@ typedef struct verify__reader {
   int apart;  // 1: the roots have been parted
 } verify__reader;
 
+/*@ predicate a_reader(verify__reader *r) =
+      \valid(r) && r->bits <= 8 * (SIZE_MAX / 16) && r->at <= r->bits + 256 &&
+      \valid_read(r->bytes + (0 .. (r->bits + 7) / 8 - 1)) &&
+      \separated(r, r->bytes + (0 .. (r->bits + 7) / 8 - 1)); */
+
+/*@ predicate at_work(verify__reader *r) =
+      a_reader(r) && a_mover(r->a) && a_mover(r->b) && r->count <= r->capacity &&
+      \valid(r->instants + (0 .. r->capacity - 1)) &&
+      \separated(r, r->a, r->b, r->a->mesh, r->b->mesh, r->instants + (0 .. r->capacity - 1)); */
+
 // ---- reading
 
 // The next bits, the highest of a byte first. Past the end they are 0, and r->at exceeds r->bits.
+/*@ requires a_reader(r) && 0 <= count <= 32;
+    assigns r->at;
+    ensures r->at == \old(r->at) + count; */
 static inline uint32_t verify__read(verify__reader *r, int count) {
   uint32_t out = 0;
+  /*@ loop invariant 0 <= count <= \at(count, Pre);
+      loop invariant r->at == \at(r->at, Pre) + (\at(count, Pre) - count);
+      loop assigns count, out, r->at;
+      loop variant count; */
   for (; count > 0; count--, r->at++) {
     const int more = r->at < r->bits;
     out = 2 * out + (more ? (uint32_t)r->bytes[r->at / 8] >> (7 - r->at % 8) & 1 : 0);
@@ -58,9 +75,15 @@ static inline uint32_t verify__read(verify__reader *r, int count) {
 // becomes the last. A new one is never 0: where z is 0, |x| + |y| is half; where x and y become 0, z
 // is -half. One that is remembered is, until eight were written: it parts nothing, and no ray of it
 // is clear.
+/*@ requires a_reader(r) && r->at <= r->bits + 192;
+    assigns r->at, *(&r->normals[0][0] + (0 .. 23));
+    ensures \old(r->at) < r->at <= \old(r->at) + 57; */
 static inline void verify__read_normal(verify__reader *r) {
   double n[3];
   size_t k = 1;
+  /*@ loop invariant 1 <= k <= 8 && r->at == \at(r->at, Pre) + k - 1;
+      loop assigns k, r->at;
+      loop variant 8 - k; */
   while (k < 8 && !verify__read(r, 1)) k++;
   memcpy(n, r->normals[k % 8], sizeof n);
   if (k == 8) {
@@ -77,22 +100,34 @@ static inline void verify__read_normal(verify__reader *r) {
   memcpy(r->normals[0], n, sizeof n);
 }
 
+/*@ requires \valid_read(a + (0 .. 2)) && \valid_read(b + (0 .. 2));
+    assigns \nothing; */
 static inline double verify__dot(const double *a, const double *b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
 // No point of a node is farther from its body's origin: no coordinate of its box is larger than the
 // corner's, and 1e-6 holds the roundings.
+/*@ requires a_mover(mover) && \valid_read(node) && a_node(node, mover->mesh);
+    assigns \nothing; */
 static inline double verify__radius(const nsvcd_verify_mover *mover,
                                     const nsvcd_verify_node *node) {
   const float *low = mover->mesh->boxes + 6 * (size_t)node->box;
   double corner[3];
+  /*@ loop invariant 0 <= i <= 3;
+      loop assigns i, corner[0 .. 2];
+      loop variant 3 - i; */
   for (int i = 0; i < 3; i++) corner[i] = verify__max(-(double)low[i], (double)low[i + 3]);
   return 1.000001 * mover->scale * sqrt(verify__dot(corner, corner));
 }
 
+/*@ requires \valid_read(a) && \valid_read(b);
+    assigns \nothing; */
 static inline double verify__lengths(double radii, const nsvcd_verify_place *a,
                                      const nsvcd_verify_place *b) {
+  /*@ loop invariant 0 <= i <= 3;
+      loop assigns i, radii;
+      loop variant 3 - i; */
   for (int i = 0; i < 3; i++) radii += fabs(a->at[i]) + fabs(b->at[i]);
   return radii;
 }
@@ -100,16 +135,26 @@ static inline double verify__lengths(double radii, const nsvcd_verify_place *a,
 // ---- rays
 
 // A vertex of one mover in the frame of another, in units of its scale.
+/*@ requires a_mover(of) && \valid_read(of_at) && \valid_read(by) && \valid_read(by_at);
+    requires vertex < of->mesh->vertices && \valid(out + (0 .. 2));
+    requires \separated(out + (0 .. 2), by_at, by);
+    assigns out[0 .. 2]; */
 static inline void verify__seen(const nsvcd_verify_mover *of, const nsvcd_verify_place *of_at,
                                 const nsvcd_verify_mover *by, const nsvcd_verify_place *by_at,
                                 uint32_t vertex, double *out) {
   const float *x = of->mesh->positions + 3 * (size_t)vertex;
   double world[3];
+  /*@ loop invariant 0 <= i <= 3;
+      loop assigns i, world[0 .. 2];
+      loop variant 3 - i; */
   for (int i = 0; i < 3; i++) {
     const double *row = of_at->turn + 3 * i;
     world[i] = row[0] * (double)x[0] + row[1] * (double)x[1] + row[2] * (double)x[2];
     world[i] = of->scale * world[i] + (of_at->at[i] - by_at->at[i]);
   }
+  /*@ loop invariant 0 <= i <= 3;
+      loop assigns i, out[0 .. 2];
+      loop variant 3 - i; */
   for (int i = 0; i < 3; i++) {
     const double *column = by_at->turn + i;
     out[i] = column[0] * world[0] + column[3] * world[1] + column[6] * world[2];
@@ -125,6 +170,10 @@ typedef struct verify__extent {
 
 // Does a ray from y along d leave (1) or enter (-1) through a triangle, or miss it (0)? 2: that is
 // not clear, by the margin.
+/*@ requires a_mesh(m) && triangle < m->triangles && \valid_read(e);
+    requires \valid_read(y + (0 .. 2)) && \valid_read(d + (0 .. 2));
+    assigns \nothing;
+    ensures -1 <= \result <= 2; */
 static inline int verify__crosses(const nsvcd_verify_mesh *m, uint32_t triangle, const double *y,
                                   const double *d, const verify__extent *e) {
   const double length = sqrt(verify__dot(d, d));
@@ -132,7 +181,13 @@ static inline int verify__crosses(const nsvcd_verify_mesh *m, uint32_t triangle,
   double p[3][3], cross[3], edge[3], normal[3] = {0, 0, 0}, ahead = -VERIFY__BEYOND;
   int left = 0;
   int right = 0;
+  /*@ loop invariant 0 <= k <= 3;
+      loop assigns k, ahead, p[0 .. 2][0 .. 2];
+      loop variant 3 - k; */
   for (uint32_t k = 0; k < 3; k++) {
+    /*@ loop invariant 0 <= i <= 3;
+        loop assigns i, p[k][0 .. 2];
+        loop variant 3 - i; */
     for (int i = 0; i < 3; i++) p[k][i] = (double)verify__corner(m, triangle, k)[i] - y[i];
     ahead = verify__max(ahead, verify__dot(p[k], d));
   }
@@ -143,9 +198,15 @@ static inline int verify__crosses(const nsvcd_verify_mesh *m, uint32_t triangle,
   // most, and a side is told only where |d| is over two margins. The line above trusts d: a ray's is
   // exact, and of an edge 0 proves nothing. `rounding` is det's own, in units of |d|: it is a sum of
   // products of three lengths, good to 2e-15 of these.
+  /*@ loop invariant -1 <= k <= 2 && 0 <= left <= 2 - k && 0 <= right <= 2 - k;
+      loop assigns k, left, right, cross[0 .. 2], edge[0 .. 2], normal[0 .. 2];
+      loop variant k; */
   for (int k = 2; k >= 0; k--) {
     const double *u = p[k];
     const double *v = p[(k + 1) % 3];
+    /*@ loop invariant 0 <= i <= 3;
+        loop assigns i, cross[0 .. 2], edge[0 .. 2], normal[0 .. 2];
+        loop variant 3 - i; */
     for (int i = 0; i < 3; i++) {
       cross[i] = u[(i + 1) % 3] * v[(i + 2) % 3] - u[(i + 2) % 3] * v[(i + 1) % 3];
       edge[i] = v[i] - u[i];
@@ -153,8 +214,9 @@ static inline int verify__crosses(const nsvcd_verify_mesh *m, uint32_t triangle,
     }
     const double off = length * (e->margin * sqrt(verify__dot(edge, edge)) + rounding) +
                        2 * e->margin * sqrt(verify__dot(cross, cross));
-    left += verify__dot(d, cross) > off;
-    right += verify__dot(d, cross) < -off;
+    const double side = verify__dot(d, cross);
+    if (side > off) left++;
+    if (side < -off) right++;
   }
   if (left > 0 && right > 0) return 0;
   if (left < 3 && right < 3) return 2;
@@ -168,9 +230,15 @@ static inline int verify__crosses(const nsvcd_verify_mesh *m, uint32_t triangle,
 
 // Does the line of a ray miss a box by a margin? If something across both of them parts them. The
 // line of a normal of 0 misses nothing: 0 is not more than 0.
+/*@ requires \valid_read(box + (0 .. 5));
+    requires \valid_read(y + (0 .. 2)) && \valid_read(d + (0 .. 2));
+    assigns \nothing; */
 static inline int verify__misses(const float *box, const double *y, const double *d,
                                  double margin) {
   const double most = margin * sqrt(verify__dot(d, d));
+  /*@ loop invariant 0 <= i <= 3;
+      loop assigns i;
+      loop variant 3 - i; */
   for (int i = 0; i < 3; i++) {
     const int j = (i + 1) % 3;
     const int k = (i + 2) % 3;
@@ -209,12 +277,20 @@ static inline int verify__cast(const verify__reader *r, const nsvcd_verify_mesh 
 }
 
 // How often closed components wind about where the ray begins.
+/*@ requires a_mesh(m) && \valid_read(m->open + (0 .. m->vertices - 1)) && \valid_read(m->sums + (0 .. m->vertices - 1));
+    assigns \nothing; */
 static inline int64_t verify__wound(const nsvcd_verify_mesh *m) {
   int64_t sum = 0;
+  /*@ loop invariant 0 <= v <= m->vertices;
+      loop invariant -0x80000000 * v <= sum <= 0x7fffffff * v;
+      loop assigns v, sum;
+      loop variant m->vertices - v; */
   for (size_t v = 0; v < m->vertices; v++) sum += m->open[v] ? 0 : m->sums[v];
   return sum;
 }
 
+/*@ requires a_mover(of) && a_mover(by) && \valid_read(of_at) && \valid_read(by_at);
+    assigns \nothing; */
 static inline verify__extent verify__extent_of(const nsvcd_verify_mover *of,
                                                const nsvcd_verify_place *of_at,
                                                const nsvcd_verify_mover *by,
@@ -260,13 +336,22 @@ typedef struct verify__pair {
   uint32_t triangle[2];
 } verify__pair;
 
+/*@ predicate a_pair(verify__pair *p) =
+      \valid_read(p) && a_mover(p->mover[0]) && a_mover(p->mover[1]) &&
+      p->triangle[0] < p->mover[0]->mesh->triangles && p->triangle[1] < p->mover[1]->mesh->triangles; */
+
 // A corner of the triangle of one of them, in the frame of another.
+/*@ requires a_pair(p) && 0 <= of <= 1 && 0 <= by <= 1 && k < 3 && \valid(out + (0 .. 2));
+    requires \separated(out + (0 .. 2), p, p->mover[0], p->mover[1]);
+    assigns out[0 .. 2]; */
 static inline void verify__corner_seen(const verify__pair *p, int of, int by, uint32_t k,
                                        double *out) {
   const uint32_t vertex = p->mover[of]->mesh->indices[3 * (size_t)p->triangle[of] + k];
   verify__seen(p->mover[of], &p->at[of], p->mover[by], &p->at[by], vertex, out);
 }
 
+/*@ requires a_pair(p) && 0 <= of <= 1 && 0 <= by <= 1;
+    assigns \nothing; */
 static inline verify__extent verify__extent_in(const verify__pair *p, int of, int by) {
   return verify__extent_of(p->mover[of], &p->at[of], p->mover[by], &p->at[by]);
 }
@@ -274,6 +359,9 @@ static inline verify__extent verify__extent_in(const verify__pair *p, int of, in
 // Whose edge, and which: it passes through the other's triangle, if that is crossed by rays from
 // both of its ends to the other end, one outwards, one inwards: so each end has the triangle before
 // it, and it is between them.
+/*@ requires a_reader(r) && r->at <= r->bits + 128 && a_pair(p);
+    requires \separated(r, p, p->mover[0], p->mover[1], p->mover[0]->mesh, p->mover[1]->mesh);
+    assigns r->at; */
 static inline const char *verify__pierced(verify__reader *r, const verify__pair *p) {
   const int of = (int)verify__read(r, 1);
   const uint32_t edge = verify__read(r, 2);
@@ -283,6 +371,9 @@ static inline const char *verify__pierced(verify__reader *r, const verify__pair 
   if (edge == 3) return "it names an edge that there is not";
   verify__corner_seen(p, of, !of, edge, from);
   verify__corner_seen(p, of, !of, (edge + 1) % 3, to);
+  /*@ loop invariant 0 <= i <= 3;
+      loop assigns i, there[0 .. 2], back[0 .. 2];
+      loop variant 3 - i; */
   for (int i = 0; i < 3; i++) {
     there[i] = to[i] - from[i];
     back[i] = -there[i];
@@ -296,16 +387,28 @@ static inline const char *verify__pierced(verify__reader *r, const verify__pair 
 // A point of each triangle, by two numbers of 16 bits: shares of the way from its first corner to
 // the second, and from there to the third. Weights are none below 0 and sum to 1, to a rounding, so
 // the points are of the triangles. Both are off by half a margin at most.
+/*@ requires a_reader(r) && r->at <= r->bits + 128 && a_pair(p);
+    requires \separated(r, p, p->mover[0], p->mover[1], p->mover[0]->mesh, p->mover[1]->mesh);
+    assigns r->at; */
 static inline const char *verify__near(verify__reader *r, const verify__pair *p) {
   double apart[3] = {0, 0, 0};
+  /*@ loop invariant 0 <= k <= 2 && r->at == \at(r->at, Pre) + 32 * k;
+      loop assigns k, r->at, apart[0 .. 2];
+      loop variant 2 - k; */
   for (int k = 0; k < 2; k++) {
     const double v = (double)verify__read(r, 16) / 65535;
     const double w = (double)verify__read(r, 16) / 65535;
     const double sign = k ? -1 : 1;
     const double weight[3] = {sign * (1 - v), sign * v * (1 - w), sign * v * w};
+    /*@ loop invariant 0 <= c <= 3;
+        loop assigns c, apart[0 .. 2];
+        loop variant 3 - c; */
     for (uint32_t c = 0; c < 3; c++) {
       double x[3];
       verify__corner_seen(p, k, 1, c, x);
+      /*@ loop invariant 0 <= i <= 3;
+          loop assigns i, apart[0 .. 2];
+          loop variant 3 - i; */
       for (int i = 0; i < 3; i++) apart[i] += weight[c] * x[i];
     }
   }

@@ -45,6 +45,20 @@ typedef struct nsvcd_verify_node {
   uint32_t box, first, count;  // a row of boxes; of order
 } nsvcd_verify_node;
 
+/*@ // What nsvcd_verify_mesh_init has accepted.
+    predicate a_mesh(nsvcd_verify_mesh *m) =
+      \valid_read(m) && 1 <= m->triangles <= 0x20000000 && m->vertices <= 0x60000000 &&
+      \valid_read(m->positions + (0 .. 3 * m->vertices - 1)) &&
+      \valid_read(m->indices + (0 .. 3 * m->triangles - 1)) &&
+      (\forall integer i; 0 <= i < 3 * m->triangles ==> m->indices[i] < m->vertices) &&
+      \valid(m->order + (0 .. m->triangles - 1)) &&
+      (\forall integer i; 0 <= i < m->triangles ==> m->order[i] < m->triangles) &&
+      \valid(m->boxes + (0 .. 12 * m->triangles - 7));
+    // A node of the tree of a mesh: its triangles are there, and the boxes of all below it.
+    predicate a_node(nsvcd_verify_node *n, nsvcd_verify_mesh *m) =
+      1 <= n->count && n->first + n->count <= m->triangles &&
+      n->box + 2 * n->count <= 2 * m->triangles; */
+
 // Takes a corner x to turn scale x + at.
 typedef struct nsvcd_verify_place {
   double turn[9], at[3];
@@ -69,6 +83,8 @@ typedef struct nsvcd_verify_mover {
   uint32_t base;      // the link from which it is seen, the same for both; 0, the world, for paths
 } nsvcd_verify_mover;
 
+/*@ predicate a_mover(nsvcd_verify_mover *a) = \valid_read(a) && a_mesh(a->mesh); */
+
 // Between two poses the position is linear and the rotation a slerp, the shorter way round. Both
 // ways are as long, to a rounding, where the turn is one of 180 degrees: the sign of x x' + y y' +
 // z z' + w w' decides, summed so in double, of which the products are exact.
@@ -79,9 +95,13 @@ typedef struct nsvcd_verify_path {
 } nsvcd_verify_path;
 
 // The lesser of two numbers, and the greater; fmin and fmax, which look for NaN, are calls.
+/*@ assigns \nothing;
+    ensures \result == a || \result == b; */
 static inline double verify__min(double a, double b) {
   return a < b ? a : b;
 }
+/*@ assigns \nothing;
+    ensures \result == a || \result == b; */
 static inline double verify__max(double a, double b) {
   return a > b ? a : b;
 }
@@ -89,6 +109,8 @@ static inline double verify__max(double a, double b) {
 // A double also where registers are wider (x87), for what is compared with itself computed again: a
 // knot, or it would be the next one after itself; a key to sort by, or nothing would be at its
 // place.
+/*@ assigns \nothing;
+    ensures \result == x; */
 static inline double verify__stored(double x) {
 #if FLT_EVAL_METHOD == 0 || FLT_EVAL_METHOD == 1
   return x;
@@ -150,16 +172,23 @@ static inline uint32_t verify__hash(uint32_t hash, const void *words, size_t cou
 
 // ---- meshes
 
+/*@ requires a_mesh(m) && triangle < m->triangles && k < 3;
+    assigns \nothing;
+    ensures \valid_read(\result + (0 .. 2)); */
 static inline const float *verify__corner(const nsvcd_verify_mesh *m, size_t triangle, size_t k) {
   return m->positions + 3 * (size_t)m->indices[3 * triangle + k];
 }
 
+/*@ requires a_mesh(m) && triangle < m->triangles && 0 <= axis <= 2;
+    assigns \nothing; */
 static inline double verify__sum(const nsvcd_verify_mesh *m, uint32_t triangle, int axis) {
   const double sum = verify__stored((double)verify__corner(m, triangle, 0)[axis] +
                                     (double)verify__corner(m, triangle, 1)[axis]);
   return verify__stored(sum + (double)verify__corner(m, triangle, 2)[axis]);
 }
 
+/*@ requires a_mesh(m) && i < m->triangles && j < m->triangles && 0 <= axis <= 2;
+    assigns \nothing; */
 static inline int verify__before(const nsvcd_verify_mesh *m, uint32_t i, uint32_t j, int axis) {
   const double x = verify__sum(m, i, axis);
   const double y = verify__sum(m, j, axis);
@@ -209,8 +238,15 @@ static inline void verify__cut(nsvcd_verify_mesh *m, const nsvcd_verify_node *no
   }
 }
 
+/*@ requires \valid_read(node) && \valid(child + (0 .. 1)) && \separated(node, child + (0 .. 1));
+    requires 1 < node->count <= 0x20000000 && node->box < 0x40000000 && node->first < 0x20000000;
+    assigns child[0 .. 1];
+    ensures child[0].count == node->count / 2 && child[1].count == node->count - node->count / 2;
+    ensures child[0].first == node->first && child[1].first == node->first + child[0].count;
+    ensures child[0].box == node->box + 1 && child[1].box == node->box + 2 * child[0].count; */
 static inline void verify__children(const nsvcd_verify_node *node, nsvcd_verify_node *child) {
   const uint32_t half = node->count / 2;
+  //@ assert 1 <= half && 2 * half <= node->count <= 2 * half + 1;
   const nsvcd_verify_node left = {node->box + 1, node->first, half};
   const nsvcd_verify_node right = {node->box + 2 * half, node->first + half, node->count - half};
   child[0] = left;
@@ -366,17 +402,30 @@ static inline const char *nsvcd_verify_mesh_init(const float *positions, size_t 
   return NULL;
 }
 
+/*@ // What nsvcd_verify_path_init has accepted.
+    predicate a_path(nsvcd_verify_path *p) =
+      \valid_read(p) && 1 <= p->count <= 65536 && \valid_read(p->poses + (0 .. 7 * p->count - 1)) &&
+      (p->times == \null || \valid_read(p->times + (0 .. p->count - 1))); */
+
 // ---- paths
 
+/*@ requires a_path(p) && k < p->count;
+    assigns \nothing; */
 static inline double verify__knot(const nsvcd_verify_path *p, size_t k) {
   if (p->times) return (double)p->times[k];
   return verify__stored((double)k / (double)(p->count - 1));
 }
 
 // The last pose, but for the last one, that is not after a time.
+/*@ requires a_path(p);
+    assigns \nothing;
+    ensures \result < p->count && (p->count > 1 ==> \result + 1 < p->count); */
 static inline size_t verify__pose_before(const nsvcd_verify_path *p, double t) {
   size_t low = 0;
   size_t high = p->count - 1;
+  /*@ loop invariant 0 <= low <= high < p->count && (p->count > 1 ==> low < high);
+      loop assigns low, high;
+      loop variant high - low; */
   while (high > low + 1) {
     const size_t middle = (low + high) / 2;
     if (verify__knot(p, middle) > t)
@@ -388,15 +437,23 @@ static inline size_t verify__pose_before(const nsvcd_verify_path *p, double t) {
 }
 
 // The share of the way from pose k to the next one between two times, which may be t0 = knot k.
+/*@ requires a_path(p) && (p->count > 1 ==> k + 1 < p->count);
+    assigns \nothing; */
 static inline double verify__share(const nsvcd_verify_path *p, size_t k, double t0, double t1) {
   return p->count > 1 ? (t1 - t0) / (verify__knot(p, k + 1) - verify__knot(p, k)) : 0;
 }
 
 // The quaternions of pose k and the next one, unit, on the same side, and the angle of the turn.
+/*@ requires a_path(p) && k < p->count && (p->count > 1 ==> k + 1 < p->count);
+    requires \valid(from + (0 .. 3)) && \valid(to + (0 .. 3)) && \separated(from + (0 .. 3), to + (0 .. 3));
+    assigns from[0 .. 3], to[0 .. 3]; */
 static inline double verify__turn(const nsvcd_verify_path *p, size_t k, double *from, double *to) {
   const float *a = p->poses + 7 * k + 3;
   const float *b = p->count > 1 ? a + 7 : a;
   double dot = 0, square_a = 0, square_b = 0, apart = 0, together = 0;
+  /*@ loop invariant 0 <= i <= 4;
+      loop assigns i, dot, square_a, square_b;
+      loop variant 4 - i; */
   for (int i = 0; i < 4; i++) {
     dot = verify__stored(dot + (double)a[i] * (double)b[i]);
     square_a += (double)a[i] * (double)a[i];
@@ -404,6 +461,9 @@ static inline double verify__turn(const nsvcd_verify_path *p, size_t k, double *
   }
   const double length_a = sqrt(square_a);
   const double length_b = dot < 0 ? -sqrt(square_b) : sqrt(square_b);
+  /*@ loop invariant 0 <= i <= 4;
+      loop assigns i, apart, together, from[0 .. 3], to[0 .. 3];
+      loop variant 4 - i; */
   for (int i = 0; i < 4; i++) {
     from[i] = (double)a[i] / length_a;
     to[i] = (double)b[i] / length_b;
@@ -415,8 +475,13 @@ static inline double verify__turn(const nsvcd_verify_path *p, size_t k, double *
 
 // The rotation matrix of a quaternion of any length but 0: one that was checked has about 1, a
 // slerp's below the sine of half its turn, which is over 1e-7.
+/*@ requires \valid_read(q + (0 .. 3)) && \valid(m + (0 .. 8)) && \separated(q + (0 .. 3), m + (0 .. 8));
+    assigns m[0 .. 8]; */
 static inline void verify__matrix(const double *q, double *m) {
   const double square = q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3];
+  /*@ loop invariant 0 <= i <= 3;
+      loop assigns i, m[0 .. 8];
+      loop variant 3 - i; */
   for (int i = 0; i < 3; i++) {
     const int j = (i + 1) % 3;
     const int k = (i + 2) % 3;
@@ -426,6 +491,9 @@ static inline void verify__matrix(const double *q, double *m) {
   }
 }
 
+/*@ requires a_path((nsvcd_verify_path *)motion) && \valid(out);
+    requires \separated(out, (nsvcd_verify_path *)motion);
+    assigns *out; */
 static inline void verify__path_place(const void *motion, double t, nsvcd_verify_place *out) {
   const nsvcd_verify_path *p = (const nsvcd_verify_path *)motion;
   const size_t k = verify__pose_before(p, t);
@@ -435,12 +503,20 @@ static inline void verify__path_place(const void *motion, double t, nsvcd_verify
   double q[4], to[4];
   const double half = 0.5 * verify__turn(p, k, q, to);
   const int turns = half > 1e-7;  // below, a line is as good: a turn off by less than half^3
+  /*@ loop invariant 0 <= i <= 3;
+      loop assigns i, out->at[0 .. 2];
+      loop variant 3 - i; */
   for (int i = 0; i < 3; i++) out->at[i] = (1 - u) * (double)a[i] + u * (double)b[i];
+  /*@ loop invariant 0 <= i <= 4;
+      loop assigns i, q[0 .. 3];
+      loop variant 4 - i; */
   for (int i = 0; i < 4; i++)
     q[i] = turns ? sin((1 - u) * half) * q[i] + sin(u * half) * to[i] : (1 - u) * q[i] + u * to[i];
   verify__matrix(q, out->turn);
 }
 
+/*@ requires a_path((nsvcd_verify_path *)motion);
+    assigns \nothing; */
 static inline double verify__path_next(const void *motion, double t) {
   const nsvcd_verify_path *p = (const nsvcd_verify_path *)motion;
   return p->count > 1 ? verify__knot(p, verify__pose_before(p, t) + 1) : 1;
@@ -453,6 +529,9 @@ static inline double verify__path_next(const void *motion, double t) {
 // and t1 are neighbours, half way may be t1 (ties go to even), the knot at the end, and the pose
 // one too late. Then t1 - t0 < 1.2e-16, of a stretch of 0.99e-7 at least: a turn by less than 4e-9,
 // a true deviation below 2e-18 r, which the margin, 1e-10 r, holds.
+/*@ requires a_path((nsvcd_verify_path *)motion) && \valid(deviation + (0 .. 5));
+    requires \separated(deviation + (0 .. 5), (nsvcd_verify_path *)motion);
+    assigns deviation[1 .. 5]; */
 static inline void verify__path_deviation(const void *motion, double t0, double t1,
                                           double *deviation) {
   const nsvcd_verify_path *p = (const nsvcd_verify_path *)motion;
@@ -461,12 +540,18 @@ static inline void verify__path_deviation(const void *motion, double t0, double 
   const double h = verify__share(p, k, t0, t1) * verify__turn(p, k, from, to);
   double *axis = deviation + 3;
   double square = 0;
+  /*@ loop invariant 0 <= i <= 3;
+      loop assigns i, square, deviation[3 .. 5];
+      loop variant 3 - i; */
   for (int i = 0; i < 3; i++) {
     const int j = (i + 1) % 3;
     const int l = (i + 2) % 3;
     axis[i] = from[3] * to[i] - to[3] * from[i] - (from[j] * to[l] - from[l] * to[j]);
     square += axis[i] * axis[i];
   }
+  /*@ loop invariant 0 <= i <= 3;
+      loop assigns i, deviation[3 .. 5];
+      loop variant 3 - i; */
   for (int i = 0; i < 3 && square > 0; i++) axis[i] /= sqrt(square);
   if (square > 0)
     deviation[2] = 0.1250001 * h * h;
