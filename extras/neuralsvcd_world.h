@@ -335,12 +335,12 @@ typedef struct nsvcd_step_answer {
 //              library
 //
 // What is proven is what slides prove: no two bodies overlap, if none did. The rest is physics:
-//   A mover that stands on something driven, directly or by way of others, is carried: it goes along
-// with it, then slides at the speed that it has relative to it. So stacks ride on lifts, platforms
-// and turntables, as far as friction holds them. A mover that a lift comes up into is carried too,
-// and so is what is in the way of riders. Going along is proven like any way, but past what moves at
-// the same time it keeps only half the clearance. A mover that cannot go along, with all that stands
-// on it, slides in the world, before those that are carried.
+//   A mover that stands on something driven, directly or by way of others, is carried: it goes
+// along with it, then slides at the speed that it has relative to it. So stacks ride on lifts,
+// platforms and turntables, as far as friction holds them. A mover that a lift comes up into is
+// carried too, and so is what is in the way of riders. Going along is proven like any way, but past
+// what moves at the same time it keeps only half the clearance. A mover that cannot go along, and
+// all that stands on it, slides in the world, before those that are carried.
 //   A mover that is driven (nsvcd_world_drive) goes where it is driven, for that frame, stops for
 // nothing, and keeps its velocity.
 //   What two bodies give each other keeps their momentum along the normal, and gains no energy. An
