@@ -1,5 +1,6 @@
 # Included by the Makefile: the certificate's theorem, proven in Coq, and build/referee, the checker that the proof is about.
-# Debian: coq libcoq-coquelicot libcoq-interval; for the referee also libcoq-core-ocaml-dev libzarith-ocaml-dev ocaml-findlib.
+# Debian: coq libcoq-coquelicot libcoq-interval; for the referee also libcoq-core-ocaml-dev libzarith-ocaml-dev ocaml-findlib; and
+# gappa; frama-c-base why3 cvc4.
 COQC = coqc -q -noglob -w -all -R build/formal Svcd
 FORMAL = Statement Geometry Checker Main Scenes
 
@@ -28,5 +29,5 @@ build/referee: build/formal/checker.ml formal/referee.ml
 
 .PHONY: formal formal-proofs
 formal-proofs: $(FORMAL:%=build/formal/%.vo)
-formal: | build  ## proves the certificate's theorem (Coq), makes build/referee and compares it with build/verify
-	@formal/check.sh
+formal: | build  ## proves the certificate's theorem (Coq), compares build/referee with build/verify; bounds of roundings; no runtime error
+	@formal/check.sh && formal/margins.sh && formal/wp.sh

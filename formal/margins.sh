@@ -2,7 +2,7 @@
 # Has gappa prove how far the checker's sums are off at most, which its margins hold: formal/margins.
 # In single precision, and without what is added for roundings, none of them may hold.
 cd "$(dirname "$0")/margins" || exit 1
-command -v gappa >/dev/null || { echo "margins: there is no gappa: not proven"; exit 0; }
+command -v gappa >/dev/null || { echo "margins: gappa: not tested"; exit 0; }
 proves() {
   timeout 60 gappa 2>/dev/null >/dev/null
 }

@@ -5,7 +5,7 @@
 #   formal/wp.sh --mutants         each of three mistakes, with which its function must not be proven
 cd "$(dirname "$0")/.." || exit 1
 for tool in frama-c why3 cvc4; do
-  command -v $tool >/dev/null || { echo "wp: there is no $tool: not proven"; exit 0; }
+  command -v $tool >/dev/null || { echo "wp: $tool: not tested"; exit 0; }
 done
 # Two lists, at the same time.
 first="verify__min verify__max verify__stored verify__corner verify__sum verify__before verify__children verify__read verify__read_normal
