@@ -1704,7 +1704,7 @@ NSVCDDEF nsvcd_result nsvcd_plan(const nsvcd_plan_problem *problem,
 //     witnesses       two triangles that meet at one time
 //     patch_pairs     two patches: separated, or in contact
 //     containment     whether one body is inside the other, by rays
-//     in_order        a small mover: what it comes to first is searched first
+//     in_order        a small mover: what it comes to first
 //     loop            every patch pair that a search finds is resolved
 //     distance_bound  a distance that two vertices have: the first bound
 //   network: an opinion

@@ -265,7 +265,7 @@ extern "C" {
 #include "separate/witnesses.h"       // two triangles that meet at one time
 #include "separate/patch_pairs.h"     // two patches: separated, or in contact
 #include "separate/containment.h"     // whether one body is inside the other, by rays
-#include "separate/in_order.h"        // a small mover: what it comes to first is searched first
+#include "separate/in_order.h"        // a small mover: what it comes to first
 #include "separate/loop.h"            // every patch pair that a search finds is resolved
 #include "separate/distance_bound.h"  // a distance that two vertices have: the first bound
 

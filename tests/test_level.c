@@ -789,8 +789,7 @@ static level_caster level_caster_make(int kind) {
                               shape.triangles, 1),
              1);
     if (kind == CAST_BOX) CHECK_EQ(nsvcd_encode_box(half, 0, NULL, &out.body), NSVCD_OK);
-    if (kind == CAST_MUG)
-      CHECK_EQ(nsvcd_encode(&mesh, NULL, NULL, NULL, 0, &out.body), NSVCD_OK);
+    if (kind == CAST_MUG) CHECK_EQ(nsvcd_encode(&mesh, NULL, NULL, NULL, 0, &out.body), NSVCD_OK);
     nsvcd_mesh_free(&mesh, NULL);
     shapes_free(&shape);
   } else {

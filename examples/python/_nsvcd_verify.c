@@ -52,6 +52,7 @@ const char *verifier_verify(const verifier_mover *a, const verifier_mover *b, fl
   return report.reason;
 }
 
-void verifier_claim(const verifier_mover *a, const verifier_mover *b, float clearance, uint8_t *claim) {
+void verifier_claim(const verifier_mover *a, const verifier_mover *b, float clearance,
+                    uint8_t *claim) {
   (void)nsvcd_verify_claim(&a->mover, &b->mover, clearance, claim);
 }
