@@ -151,6 +151,7 @@ round: gaps of the skeletons|(float)(fmax(found->distance - p->given.radius, 0) 
 round: a point on either|    c->point[k] += gap * c->normal[k];|
 round: a run short of its last|for (size_t k = 0; k < count; k++) {\n    if (k == end)|for (size_t k = 0; k + 1 < count; k++) {\n    if (k == end)
 round: not scaled|*radius *= (float)by->most;|
+round: a segment has a normal|return are_one ? nsvcd__d3_of(0, 0, 0) : nsvcd__d3_cross(u, v);|return nsvcd__d3_cross(u, v);
 two patches by a plane of any triangle|if (height > highest) top = b;|if (height > highest) top = fixed_first;
 two patches, but the last triangle|for (size_t a = moving_first; a < moving_end; a++) { const nsvcd__triangle_pair pair = nsvcd__pair_of(p, i, j, a, top);|for (size_t a = moving_first; a + 1 < moving_end; a++) { const nsvcd__triangle_pair pair = nsvcd__pair_of(p, i, j, a, top);
 asks: a contact before the start|nsvcd__max(nsvcd__min(clear_until, found->tick), 0);|nsvcd__min(clear_until, found->tick);

@@ -743,6 +743,38 @@ static void round_capsules_dive(void) {
   nsvcd_body_free(box, NULL);
 }
 
+// Thin capsules, one end inside of a box and one outside, at any slant: the surfaces meet, which is
+// found at once, fused products or not. A segment's normal, a vector across itself, is 0 by neither.
+static void round_slanted_capsules_cross(void) {
+  const float half[3] = {0.3f, 0.2f, 0.1f};
+  const nsvcd_body *box = NULL;
+  shapes_rng rng = {19};
+  CHECK_EQ(nsvcd_encode_box(half, 0, NULL, &box), NSVCD_OK);
+  for (int n = 0; n < 300;) {
+    float ends[2][3];
+    int inside[2] = {1, 1};
+    int clear = 1;
+    for (int k = 0; k < 6; k++) {
+      const double x = shapes_uniform(&rng, -0.35, 0.35);
+      ends[k / 3][k % 3] = (float)x;
+      inside[k / 3] &= fabs(x) < (double)half[k % 3];
+      clear &= fabs(fabs(x) - (double)half[k % 3]) > 0.01;
+    }
+    if (!clear || inside[0] == inside[1]) continue;
+    n++;
+    const nsvcd_body *capsule = NULL;
+    const nsvcd_pose still = {{0, 0, 0}, {0, 0, 0, 1}};
+    CHECK_EQ(nsvcd_encode_capsule(ends[0], ends[1], 1e-4f, NULL, &capsule), NSVCD_OK);
+    nsvcd_question q = question_of(capsule, &still, 1, box, NULL, NULL);
+    q.surfaces = 1;
+    const nsvcd_answer answer = round_ask(&q);
+    CHECK_EQ(answer.verdict, NSVCD_HIT);
+    CHECK_LE(answer.work, 100);
+    nsvcd_body_free(capsule, NULL);
+  }
+  nsvcd_body_free(box, NULL);
+}
+
 static void round_refuses_bad_input(void) {
   const float good[6] = {0, 0, 0, 1, 0, 0};
   const float bad[6] = {0, 0, 0, NAN, 0, 0};
@@ -828,6 +860,7 @@ void test_round(void) {
   RUN(round_spheres_in_clouds);
   RUN(round_bodies_lie_on_a_table);
   RUN(round_capsules_dive);
+  RUN(round_slanted_capsules_cross);
   RUN(round_bodies_are_exact);
   // from within
   RUN(round_bodies_are_saved_and_scaled);

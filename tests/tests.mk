@@ -20,8 +20,9 @@ PROMISES = $(patsubst tests/promises/%.c,promises_%,$(wildcard tests/promises/*.
 PROMISE_HELPERS = $(wildcard tests/promises/*.h) tests/check.h $(VERIFIER)
 ALL_TESTS = $(TESTS:%=test_%) $(PROMISES)
 TEST_OBJECTS = build/main.o $(patsubst %,build/test_%.o,$(filter-out $(TESTS_APART),$(TESTS)))
-# -std=c99 keeps gcc from fusing products and sums, and gnu99, which most users have, does not.
-build/test_asks.o build/test_round.o: TEST_CFLAGS := $(filter-out -m%,$(TEST_CFLAGS)) -ffp-contract=fast
+# -std=c99 keeps gcc from fusing products and sums, and gnu99, which most users have, does not, where the processor can.
+FUSES := $(shell grep -qsw fma /proc/cpuinfo && echo -mfma) -ffp-contract=fast
+build/test_asks.o build/test_round.o: TEST_CFLAGS := $(filter-out -m%,$(TEST_CFLAGS)) $(FUSES)
 
 $(TEST_OBJECTS): build/%.o: tests/%.c $(HELPERS) $(PEERS) $(SCENERY) $(LIBRARY) | build
 	$(CC) $(TEST_CFLAGS) -pthread -std=c99 $(TEST_WARNINGS) -c -o $@ $<

@@ -2,9 +2,15 @@
 #pragma once
 #include "points.h"
 
-// The normal of a triangle (3 corners); its length is twice the area.
+// The normal of a triangle (3 corners); its length is twice the area. Of a segment (a, b, b), as round
+// bodies have it, and of (a, a, b) and (a, b, a) it is 0, as if products were not fused with sums: a
+// vector across itself would be what a product was rounded by.
 static nsvcd__d3 nsvcd__face_normal(const nsvcd__d3 *t) {
-  return nsvcd__d3_cross(nsvcd__d3_sub(t[1], t[0]), nsvcd__d3_sub(t[2], t[0]));
+  const nsvcd__d3 u = nsvcd__d3_sub(t[1], t[0]);
+  const nsvcd__d3 v = nsvcd__d3_sub(t[2], t[0]);
+  const int are_one =
+      !(u.x < v.x || u.x > v.x || u.y < v.y || u.y > v.y || u.z < v.z || u.z > v.z);
+  return are_one ? nsvcd__d3_of(0, 0, 0) : nsvcd__d3_cross(u, v);
 }
 
 typedef struct nsvcd__nearest {
