@@ -2582,9 +2582,9 @@ static inline nsvcd__dpose nsvcd__dpose_between(const nsvcd_pose *a, const nsvcd
 #define NSVCD__HAS_GROUND_TRIANGLES
 // In: two triangles, in double. Out: where they meet, or are nearest.
 
-// The normal of a triangle (3 corners); its length is twice the area. Of a segment (a, b, b), as round
-// bodies have it, and of (a, a, b) and (a, b, a) it is 0, as if products were not fused with sums: a
-// vector across itself would be what a product was rounded by.
+// The normal of a triangle (3 corners); its length is twice the area. Of a segment (a, b, b), as
+// round bodies have it, it is 0 where products are fused with sums, too: there a vector across
+// itself is what a product was rounded by.
 static nsvcd__d3 nsvcd__face_normal(const nsvcd__d3 *t) {
   const nsvcd__d3 u = nsvcd__d3_sub(t[1], t[0]);
   const nsvcd__d3 v = nsvcd__d3_sub(t[2], t[0]);
