@@ -202,6 +202,19 @@ Proof.
 Qed.
 
 Definition rigid b := moves b /\ forall m, In m (pieces b) -> well_formed (pieceR (size b) m).
+Definition now b t := pieceR (size b) (piece_at (pieces b) t).
+Lemma now_is b m t y : rigid b -> In m (pieces b) -> during m t -> 0 <= t <= 1 ->
+  place (now b t) t y = place (pieceR (size b) m) t y.
+Proof. intros ((C & O) & _) I D T. destruct (piece_at_ok (pieces b) t (C t T)). apply O; auto. Qed.
+Lemma now_formed b t : rigid b -> 0 <= t <= 1 -> well_formed (now b t).
+Proof. intros ((C & _) & F) T. apply F, (piece_at_ok (pieces b) t (C t T)). Qed.
+Lemma now_points b t z : rigid b -> 0 <= t <= 1 -> at_time b t z <->
+  exists T y, In T (tris b) /\ of_tri y (triR (den b) T) /\ z = place (now b t) t y.
+Proof.
+  intros R T. pose proof R as ((C & _) & _). destruct (piece_at_ok (pieces b) t (C t T)) as [I D]. split.
+  - intros (m & U & y & Im & Dm & IU & Y & ->). exists U, y. rewrite (now_is b m); auto.
+  - intros (U & y & IU & Y & ->). exists (piece_at (pieces b) t), U, y. auto 10.
+Qed.
 
 Section Escape.
 Variables a b : body.
@@ -209,33 +222,13 @@ Hypothesis Ra : rigid a.
 Hypothesis Rb : rigid b.
 Hypothesis Never : forall t x, 0 <= t <= 1 -> at_time a t x -> ~ at_time b t x.
 
-Definition at_a t := pieceR (size a) (piece_at (pieces a) t).
-Definition at_b t := pieceR (size b) (piece_at (pieces b) t).
-Lemma at_a_is m t y : In m (pieces a) -> during m t -> 0 <= t <= 1 -> place (at_a t) t y = place (pieceR (size a) m) t y.
-Proof.
-  intros I D T. destruct Ra as ((C & O) & _). destruct (piece_at_ok (pieces a) t (C t T)). apply O; auto.
-Qed.
-Lemma at_b_is m t y : In m (pieces b) -> during m t -> 0 <= t <= 1 -> place (at_b t) t y = place (pieceR (size b) m) t y.
-Proof.
-  intros I D T. destruct Rb as ((C & O) & _). destruct (piece_at_ok (pieces b) t (C t T)). apply O; auto.
-Qed.
-Lemma at_b_formed t : 0 <= t <= 1 -> well_formed (at_b t).
-Proof. intros T. destruct Rb as ((C & _) & F). apply F, (piece_at_ok (pieces b) t (C t T)). Qed.
-Lemma at_b_place t z : 0 <= t <= 1 -> at_time b t z <->
-  exists T y, In T (tris b) /\ of_tri y (triR (den b) T) /\ z = place (at_b t) t y.
-Proof.
-  intros T. destruct Rb as ((C & _) & _). destruct (piece_at_ok (pieces b) t (C t T)) as [I D]. split.
-  - intros (m & U & y & Im & Dm & IU & Y & ->). exists U, y. rewrite (at_b_is m); auto.
-  - intros (U & y & IU & Y & ->). exists (piece_at (pieces b) t), U, y. auto 10.
-Qed.
-
 (* a body as small as a point is left straight away from it *)
 Lemma away_from_point t x : 0 <= t <= 1 -> at_time a t x -> Q2R (size b) = 0 -> free_way b t x.
 Proof.
-  intros T X S. set (o := origin (at_b t) t).
+  intros T X S. set (o := origin (now b t) t).
   assert (O : forall z, at_time b t z -> z = o).
-  { intros z Z. apply at_b_place in Z as (U & y & _ & _ & ->); auto. unfold place. fold o.
-    replace (scale (at_b t)) with 0 by (symmetry; exact S). apply V_eq; unfold vadd, vscale; simpl; ring. }
+  { intros z Z. apply now_points in Z as (U & y & _ & _ & ->); auto. unfold place. fold o.
+    replace (scale (now b t)) with 0 by (symmetry; exact S). apply V_eq; unfold vadd, vscale; simpl; ring. }
   destruct (classic (exists z, at_time b t z)) as [(z & Z)|N].
   - assert (Zo := O z Z). subst z. destruct (Req_dec (norm (vsub x o)) 0) as [E|E].
     + exfalso. apply norm_zero in E. apply (Never t x T X). rewrite E. exact Z.
@@ -253,34 +246,34 @@ Variables (t e : R) (n y : V).
 Hypothesis T : 0 <= t <= 1.
 Hypothesis E : 0 <= e <= 1.
 Hypothesis Plane : forall p q, at_time a e p -> at_time b e q -> 0 < dot n (vsub p q).
-Hypothesis Y : forall s, 0 <= s <= 1 -> at_time a s (place (at_a s) s y).
+Hypothesis Y : forall s, 0 <= s <= 1 -> at_time a s (place (now a s) s y).
 Hypothesis Far : 0 < norm n.
 Hypothesis S : Q2R (size b) <> 0.
 
 (* in time from t to e, where the plane is, and on from there along its normal: as b sees it, put where b is at t *)
 Definition clock u := t + clamped u * (e - t).
 Definition way u := let s := clock u in
-  place (at_b t) t (seen (at_b s) s (vadd (place (at_a s) s y) (vscale (beyond u) n))).
+  place (now b t) t (seen (now b s) s (vadd (place (now a s) s y) (vscale (beyond u) n))).
 
 Lemma clock_range u : 0 <= clock u <= 1.
 Proof. unfold clock. pose proof (clamped_range u). nra. Qed.
 
-Lemma way_starts : way 0 = place (at_a t) t y.
+Lemma way_starts : way 0 = place (now a t) t y.
 Proof.
   unfold way, clock. rewrite clamped_0, beyond_1 by lra. replace (t + 0 * (e - t)) with t by ring.
-  rewrite place_seen; [|apply at_b_formed, T|exact S]. apply V_eq; unfold vadd, vscale; simpl; ring.
+  rewrite place_seen; [|apply (now_formed b t Rb T)|exact S]. apply V_eq; unfold vadd, vscale; simpl; ring.
 Qed.
 
 Lemma way_clear u : 0 <= u -> ~ at_time b t (way u).
 Proof.
-  intros U A. apply at_b_place in A as (F & z & IF & Z & A); auto. unfold way in A.
+  intros U A. apply now_points in A as (F & z & IF & Z & A); auto. unfold way in A.
   set (s := clock u) in *. assert (Rs : 0 <= s <= 1) by apply clock_range.
-  apply (f_equal (seen (at_b t) t)) in A. rewrite !seen_place in A by (apply at_b_formed, T || exact S).
-  apply (f_equal (place (at_b s) s)) in A. rewrite place_seen in A by (apply at_b_formed, Rs || exact S).
-  assert (B : at_time b s (place (at_b s) s z)) by (apply at_b_place; eauto).
+  apply (f_equal (seen (now b t) t)) in A. rewrite !seen_place in A by (apply (now_formed b t Rb T) || exact S).
+  apply (f_equal (place (now b s) s)) in A. rewrite place_seen in A by (apply (now_formed b s Rb Rs) || exact S).
+  assert (B : at_time b s (place (now b s) s z)) by (apply now_points; eauto).
   rewrite <- A in B. destruct (Rle_dec u 1) as [L|L].
   - rewrite beyond_1 in B by auto. apply (Never s _ Rs (Y s Rs)).
-    replace (vadd _ _) with (place (at_a s) s y) in B by (apply V_eq; unfold vadd, vscale; simpl; ring). exact B.
+    replace (vadd _ _) with (place (now a s) s y) in B by (apply V_eq; unfold vadd, vscale; simpl; ring). exact B.
   - destruct (past_1 u) as [C D]; [lra|]. assert (Es : s = e) by (unfold s, clock; rewrite C; ring).
     rewrite Es in *. pose proof (Plane _ _ (Y e E) B) as P. rewrite D in P.
     replace (dot n _) with (- ((u - 1) * dot n n)) in P by (unfold dot, vsub, vadd, vscale; simpl; ring).
@@ -291,8 +284,8 @@ Lemma way_unbounded : forall bound, exists u, forall v, u <= v -> bound < norm (
 Proof.
   apply (goes_away _ (way 1) (norm n) Far). intros u U. unfold way, clock.
   destruct (past_1 u U) as [-> ->]. destruct (past_1 1) as [-> ->]; [lra|]. replace (t + 1 * (e - t)) with e by ring.
-  rewrite place_far by apply at_b_formed, T. change (scale (at_b t)) with (scale (at_b e)).
-  rewrite <- seen_far by (apply at_b_formed, E || exact S).
+  rewrite place_far by apply (now_formed b t Rb T). change (scale (now b t)) with (scale (now b e)).
+  rewrite <- seen_far by (apply (now_formed b e Rb E) || exact S).
   rewrite <- norm_vscale by lra. f_equal. apply V_eq; unfold vadd, vsub, vscale; simpl; ring.
 Qed.
 
@@ -302,7 +295,7 @@ Proof.
   set (l := list_prod (pieces a) (pieces b)).
   set (on := fun (i : qpiece * qpiece) u => during (fst i) (clock u) /\ during (snd i) (clock u)).
   set (att := fun m s v => vadd (vscale (scale m) (turned (attitude m s) v)) (origin m s)).
-  set (g := fun (i : qpiece * qpiece) u => att (at_b t) t (seen (pieceR (size b) (snd i)) (clock u)
+  set (g := fun (i : qpiece * qpiece) u => att (now b t) t (seen (pieceR (size b) (snd i)) (clock u)
     (vadd (att (pieceR (size a) (fst i)) (clock u) y) (vscale (beyond u) n)))).
   assert (K : steady clock) by (unfold clock, clamped; steady).
   assert (Open : forall i u, ~ on i u -> locally u (fun v => ~ on i v)).
@@ -314,12 +307,12 @@ Proof.
   assert (Same : forall i u, In i l -> on i u -> way u = g i u).
   { intros [m m'] u I [D D']. apply in_prod_iff in I as [I I']. cbn [fst snd] in D, D'.
     pose proof (clock_range u) as R. unfold g, att, way. cbn [fst snd].
-    rewrite <- !place_turned by (auto; apply at_b_formed, T). rewrite <- (at_a_is m) by auto. f_equal.
-    set (p := vadd _ _). rewrite <- (seen_place (pieceR (size b) m') (Fb m' I') (clock u) (seen (at_b _) _ p)) by exact S.
-    rewrite <- (at_b_is m') by auto. rewrite place_seen; auto. apply at_b_formed, R. }
+    rewrite <- !place_turned by (auto; apply (now_formed b t Rb T)). rewrite <- (now_is a m) by auto. f_equal.
+    set (p := vadd _ _). rewrite <- (seen_place (pieceR (size b) m') (Fb m' I') (clock u) (seen (now b _) _ p)) by exact S.
+    rewrite <- (now_is b m') by auto. rewrite place_seen; auto. apply (now_formed b _ Rb R). }
   assert (Steady : forall i, In i l -> steadyV (g i)).
   { intros [m m'] I. apply in_prod_iff in I as [I I'].
-    apply (steady_place (at_b t) (fun _ => t)); [steady|]. cbn [fst snd].
+    apply (steady_place (now b t) (fun _ => t)); [steady|]. cbn [fst snd].
     apply steady_seen; auto. apply steady_vadd; [apply steady_place; auto; apply steady_fixed|].
     apply steady_vscale; [unfold beyond; steady|apply steady_fixed]. }
   split; [|split]; [apply (paste l on (fun i u => vx (g i u)))|apply (paste l on (fun i u => vy (g i u)))
@@ -333,22 +326,21 @@ Theorem escapes : (exists t n, 0 <= t <= 1 /\ forall p q, at_time a t p -> at_ti
 Proof.
   intros (e & n & E & P) t x T X. destruct (Req_dec (Q2R (size b)) 0) as [S|S]; [apply away_from_point; auto|].
   destruct X as (m & F & y & I & D & IF & Y & ->).
-  assert (A : forall s, 0 <= s <= 1 -> at_time a s (place (at_a s) s y)).
-  { intros s Rs. destruct Ra as ((C & _) & _). destruct (piece_at_ok (pieces a) s (C s Rs)) as [Im Dm].
-    exists (piece_at (pieces a) s), F, y. auto 10. }
-  rewrite <- (at_a_is m) by auto.
+  assert (A : forall s, 0 <= s <= 1 -> at_time a s (place (now a s) s y)).
+  { intros s Rs. apply now_points; eauto. }
+  rewrite <- (now_is a m) by auto.
   destruct (classic (exists z, at_time b e z)) as [(z & Z)|N].
   - assert (Far : 0 < norm n).
-    { pose proof (P _ _ (A e E) Z) as L. pose proof (cauchy n (vsub (place (at_a e) e y) z)) as C.
-      pose proof (Rle_abs (dot n (vsub (place (at_a e) e y) z))). pose proof (norm_pos n) as [|Q]; auto.
+    { pose proof (P _ _ (A e E) Z) as L. pose proof (cauchy n (vsub (place (now a e) e y) z)) as C.
+      pose proof (Rle_abs (dot n (vsub (place (now a e) e y) z))). pose proof (norm_pos n) as [|Q]; auto.
       rewrite <- Q in C. lra. }
     exists (way t e n y). split; [apply way_starts; auto|].
     destruct (way_steady t e n y T E S) as (Cx & Cy & Cz).
     repeat split; auto; [intros u U; apply way_clear; auto|apply way_unbounded; auto].
   - apply straight with (mkV 1 0 0).
     + unfold norm, dot; simpl. replace (1 * 1 + 0 * 0 + 0 * 0) with 1 by ring. rewrite sqrt_1. lra.
-    + intros u _ Z. apply at_b_place in Z as (G & z & IG & Z & _); auto. apply N.
-      exists (place (at_b e) e z). apply at_b_place; eauto.
+    + intros u _ Z. apply now_points in Z as (G & z & IG & Z & _); auto. apply N.
+      exists (place (now b e) e z). apply now_points; eauto.
 Qed.
 End Escape.
 
