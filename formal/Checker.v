@@ -5,7 +5,7 @@
    shorter way round) are exact, or rounded as the C rounds. *)
 From Coq Require Import Reals Lra Psatz List ZArith QArith Qreals Bool Permutation Mergesort Orders.
 From Interval Require Import Real.Xreal Float.Basic Interval.Interval Missing.Stdlib.
-From Svcd Require Export Geometry.
+From Svcd Require Export Inside.
 Import ListNotations.
 Local Open Scope R_scope.
 
@@ -1068,10 +1068,21 @@ Proof.
   split; intros m m' t x; eapply chained_one; eauto.
 Qed.
 
+Lemma accepts_formed s bytes ap : accepts s bytes = Some ap -> 0 <= Q2R (clearance s) /\
+  (forall m, In m (pieces (body_a s)) -> well_formed (pieceR (size (body_a s)) m)) /\
+  (forall m, In m (pieces (body_b s)) -> well_formed (pieceR (size (body_b s)) m)).
+Proof.
+  intros H. apply accepts_walk in H as (A & B & C & _).
+  unfold sound_body in A, B. rewrite !andb_true_iff, forallb_forall in A, B. destruct A as ((Sa & Ma) & _), B as ((Sb & Mb) & _).
+  apply Qle_bool_iff, Qle_Rle in C. rewrite Q2R_0 in C.
+  split; [exact C|split; intros m I; apply sound_R; auto].
+Qed.
+
 Theorem accepts_sound : sound accepts.
 Proof.
-  intros s bytes ap H. destruct (accepts_covers s bytes ap H), (accepts_one s bytes ap H).
-  split; [eapply accepts_never_meet, H|split; [intros ->; eapply accepts_apart, H|split; split; auto]].
+  intros s bytes ap H. destruct (accepts_covers s bytes ap H), (accepts_one s bytes ap H), (accepts_formed s bytes ap H) as (C & Fa & Fb).
+  pose proof (accepts_never_meet s bytes ap H) as M. split; [exact M|split; [intros ->|split; split; auto]].
+  pose proof (accepts_apart s bytes H) as P. split; [exact P|]. apply inside_never; auto; split; auto; split; auto.
 Qed.
 End Prec.
 End Make.

@@ -78,6 +78,14 @@ Definition never_meet s := forall t x y, 0 <= t <= 1 ->
 Definition once_apart s := exists t n, 0 <= t <= 1 /\ forall x y,
   at_time (body_a s) t x -> at_time (body_b s) t y -> 0 < dot n (vsub x y).
 
+(* FREE, of insides: at no time is a point of one body enclosed by the other's triangles, be these closed or
+   not. From it a continuous way goes beyond every bound and touches none of them, as they are at that time. *)
+Definition free_way b t x := exists way : R -> V, way 0 = x /\
+  continuity (fun u => vx (way u)) /\ continuity (fun u => vy (way u)) /\ continuity (fun u => vz (way u)) /\
+  (forall u, 0 <= u -> ~ at_time b t (way u)) /\ (forall bound, exists u, forall v, u <= v -> bound < norm (way v)).
+Definition never_inside s := forall t x, 0 <= t <= 1 -> (at_time (body_a s) t x -> free_way (body_b s) t x) /\
+  (at_time (body_b s) t x -> free_way (body_a s) t x).
+
 (* a body is at one place at each time: so never_meet speaks of all times, and of one motion *)
 Definition covers b := forall t, 0 <= t <= 1 -> exists m, In m (pieces b) /\ Q2R (t_from m) <= t <= Q2R (t_to m).
 Definition one_place b := forall m m' t x, In m (pieces b) -> In m' (pieces b) ->
@@ -88,4 +96,4 @@ Definition moves b := covers b /\ one_place b.
 (* ---- THE STATEMENT. `accepts` answers Some apart where it accepts a certificate's bytes. *)
 Definition sound (accepts : scene -> list Z -> option bool) := forall s bytes apart,
   accepts s bytes = Some apart ->
-  never_meet s /\ (apart = true -> once_apart s) /\ moves (body_a s) /\ moves (body_b s).
+  never_meet s /\ (apart = true -> once_apart s /\ never_inside s) /\ moves (body_a s) /\ moves (body_b s).

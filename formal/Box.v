@@ -1,0 +1,88 @@
+(* Box.v - a test of Statement.v's words: a closed box, at rest, encloses each point within. From none
+   is there a `free_way`. So `never_inside` does say that a body is not in a box. *)
+From Coq Require Import Reals Lra List ZArith QArith Qreals.
+From Coquelicot Require Import Coquelicot.
+From Svcd Require Import Inside.
+Import ListNotations.
+Local Open Scope R_scope.
+
+(* two triangles of each of three sides, at -1 or at 1 *)
+Definition sides (s : Z) := [
+  mkZT (mkZ s (-1) (-1)) (mkZ s 1 (-1)) (mkZ s 1 1); mkZT (mkZ s (-1) (-1)) (mkZ s (-1) 1) (mkZ s 1 1);
+  mkZT (mkZ (-1) s (-1)) (mkZ 1 s (-1)) (mkZ 1 s 1); mkZT (mkZ (-1) s (-1)) (mkZ (-1) s 1) (mkZ 1 s 1);
+  mkZT (mkZ (-1) (-1) s) (mkZ 1 (-1) s) (mkZ 1 1 s); mkZT (mkZ (-1) (-1) s) (mkZ (-1) 1 s) (mkZ 1 1 s)].
+Definition still := mkPose 0 0 0 0 0 0 1.
+Definition the_box := mkBody 1 (sides 1 ++ sides (-1)) 1 [mkQP 0 1 still still].
+Definition width p := Rmax (Rabs (vx p)) (Rmax (Rabs (vy p)) (Rabs (vz p))).
+
+Lemma still_place t y : place (pieceR 1 (mkQP 0 1 still still)) t y = y.
+Proof.
+  assert (Z : Q2R 0 = 0) by (unfold Q2R; simpl; lra). assert (O : Q2R 1 = 1) by (unfold Q2R; simpl; lra).
+  assert (U : quatR still = mkQ 0 0 0 1) by (unfold quatR; simpl; rewrite Z, O; reflexivity).
+  assert (I : unitq (mkQ 0 0 0 1) = mkQ 0 0 0 1).
+  { unfold unitq. replace (qdot _ _) with 1 by (unfold qdot; simpl; ring). rewrite sqrt_1.
+    unfold qscale; simpl; f_equal; field. }
+  assert (S : shorter (mkQ 0 0 0 1) (mkQ 0 0 0 1) = mkQ 0 0 0 1)
+    by (unfold shorter; destruct Rlt_dec as [L|]; auto; unfold qdot in L; simpl in L; lra).
+  assert (L : forall u, slerp (mkQ 0 0 0 1) (mkQ 0 0 0 1) u = mkQ 0 0 0 1).
+  { intros u. unfold slerp, angle. replace (qdot _ _) with 1 by (unfold qdot; simpl; ring).
+    rewrite acos_1, sin_0. destruct (Req_EM_T 0 0); [auto|contradiction]. }
+  unfold place, origin, pieceR, posR. cbn [scale q0 q1 p0 p1 pose_from pose_to].
+  rewrite U, S, I, L, rot_unit by (unfold qdot; simpl; ring). cbn [px py pz still]. rewrite Z, O.
+  apply V_eq; unfold vadd, vscale, turned, qdot; simpl; ring.
+Qed.
+
+Lemma width_is p : Rabs (vx p) <= width p /\ Rabs (vy p) <= width p /\ Rabs (vz p) <= width p /\
+  (width p = Rabs (vx p) \/ width p = Rabs (vy p) \/ width p = Rabs (vz p)).
+Proof.
+  unfold width. generalize (Rabs (vx p)) (Rabs (vy p)) (Rabs (vz p)). intros a b c.
+  unfold Rmax. destruct (Rle_dec b c); destruct Rle_dec; repeat split; auto; lra.
+Qed.
+
+Lemma on_side p : width p = 1 -> exists T, In T (sides 1 ++ sides (-1)) /\ of_tri p (triR 1 T).
+Proof.
+  intros W. pose proof (width_is p) as (X & Y & Z & F). rewrite W in *. destruct p as [x y z]. cbn [vx vy vz] in *.
+  assert (S : forall r, 1 = Rabs r -> r = 1 \/ r = -1) by (intros r; unfold Rabs; destruct Rcase_abs; [right|left]; lra).
+  apply Rabs_le_between in X, Y, Z.
+  assert (On : forall T a b c, In T (sides 1 ++ sides (-1)) -> 0 <= a -> 0 <= b -> 0 <= c -> a + b + c = 1 ->
+    mkV x y z = mix a b c (triR 1 T) -> exists T, In T (sides 1 ++ sides (-1)) /\ of_tri (mkV x y z) (triR 1 T))
+    by (intros T a b c; exists T; split; auto; exists a, b, c; auto).
+  Ltac at_ on n p q := let T := eval cbv in (nth n (sides 1 ++ sides (-1)) (mkZT (mkZ 0 0 0) (mkZ 0 0 0) (mkZ 0 0 0))) in
+    apply (on T ((1 - p) / 2) ((p - q) / 2) ((1 + q) / 2)); try lra; [simpl; tauto|];
+    apply V_eq; unfold mix, triR, pointR, vadd, vscale; simpl; lra.
+  destruct F as [F|[F|F]]; apply S in F as [-> | ->].
+  - destruct (Rle_dec z y); [at_ On 0%nat y z|at_ On 1%nat z y].
+  - destruct (Rle_dec z y); [at_ On 6%nat y z|at_ On 7%nat z y].
+  - destruct (Rle_dec z x); [at_ On 2%nat x z|at_ On 3%nat z x].
+  - destruct (Rle_dec z x); [at_ On 8%nat x z|at_ On 9%nat z x].
+  - destruct (Rle_dec y x); [at_ On 4%nat x y|at_ On 5%nat y x].
+  - destruct (Rle_dec y x); [at_ On 10%nat x y|at_ On 11%nat y x].
+Qed.
+
+Lemma steady_max f g : steady f -> steady g -> steady (fun u => Rmax (f u) (g u)).
+Proof.
+  intros F G. assert (H : steady (fun u => / 2 * (f u + g u + Rabs (f u - g u)))) by steady.
+  intros u. apply (continuity_pt_ext (fun u => / 2 * (f u + g u + Rabs (f u - g u)))); [|apply H].
+  intros v. unfold Rmax, Rabs. destruct Rle_dec, Rcase_abs; lra.
+Qed.
+
+Theorem box_encloses t x : 0 <= t <= 1 -> width x < 1 -> ~ free_way the_box t x.
+Proof.
+  intros T X (way & S & Cx & Cy & Cz & Clear & Away). destruct (Away 2) as (u & U).
+  set (v := Rmax 1 u). assert (L : 1 <= v) by apply Rmax_l. specialize (U v (Rmax_r 1 u)).
+  destruct (IVT (fun u => width (way u) - 1) 0 v) as (w & [Wl Wh] & E).
+  - apply (steady_minus (fun u => width (way u)) (fun _ => 1)); [|apply steady_const].
+    unfold width. repeat apply steady_max; apply steady_abs; assumption.
+  - lra.
+  - rewrite S. lra.
+  - destruct (Rle_dec (width (way v)) 1) as [N|]; [exfalso|lra].
+    assert (norm (way v) <= sqrt (2 * 2)); [|rewrite sqrt_square in H; lra].
+    assert (Q : forall r, Rabs r <= 1 -> r * r <= 1) by (intros r; unfold Rabs; destruct Rcase_abs; intros; nra).
+    apply sqrt_le_1_alt. unfold dot.
+    pose proof (width_is (way v)) as (X' & Y' & Z' & _).
+    assert (vx (way v) * vx (way v) <= 1) by (apply Q; lra). assert (vy (way v) * vy (way v) <= 1) by (apply Q; lra).
+    assert (vz (way v) * vz (way v) <= 1) by (apply Q; lra). lra.
+  - destruct (on_side (way w)) as (F & I & O); [lra|]. apply (Clear w Wl).
+    exists (mkQP 0 1 still still), F, (way w). split; [left; reflexivity|]. split; [unfold Q2R; simpl; lra|].
+    split; [exact I|split; [exact O|]]. symmetry. apply still_place.
+Qed.
