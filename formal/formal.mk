@@ -2,7 +2,7 @@
 # Debian: coq libcoq-coquelicot libcoq-interval; for the referee also libcoq-core-ocaml-dev libzarith-ocaml-dev ocaml-findlib; and
 # gappa; frama-c-base why3 cvc4.
 COQC = coqc -q -noglob -w -all -R build/formal Svcd
-FORMAL = Statement Geometry Checker Main Scenes
+FORMAL = Statement Geometry Checker Meeting Main Scenes
 
 # Each file needs the one before it.
 build/formal/%.vo: formal/%.v
@@ -10,7 +10,8 @@ build/formal/%.vo: formal/%.v
 	$(COQC) -o $@ $<
 build/formal/Geometry.vo: build/formal/Statement.vo
 build/formal/Checker.vo: build/formal/Geometry.vo
-build/formal/Main.vo: build/formal/Checker.vo
+build/formal/Meeting.vo: build/formal/Checker.vo
+build/formal/Main.vo: build/formal/Meeting.vo
 build/formal/Scenes.vo: build/formal/Main.vo
 
 build/formal/checker.ml: formal/Extract.v build/formal/Main.vo
