@@ -15,6 +15,44 @@ Proof.
   apply V_eq; unfold vadd, vscale, dot; cbn [vx vy vz c0 c1 c2]; ring.
 Qed.
 
+(* ---- an edge from p to q passes through a triangle, if these are above 0: on which side of each edge it
+   passes; and on which sides of the triangle its ends are *)
+Definition det u v w := dot u (cross v w).
+Definition sides p q T :=
+  let d := vsub q p in
+  let u := vsub (c0 T) p in let v := vsub (c1 T) p in let w := vsub (c2 T) p in
+  [det d u v; det d v w; det d w u; det u v w; det (vsub (c0 T) q) (vsub (c2 T) q) (vsub (c1 T) q)].
+Lemma passes p q T : Forall (Rlt 0) (sides p q T) ->
+  exists l, 0 <= l <= 1 /\ of_tri (vadd (vscale (1 - l) p) (vscale l q)) T.
+Proof.
+  unfold sides. set (d := vsub q p). set (u := vsub (c0 T) p). set (v := vsub (c1 T) p). set (w := vsub (c2 T) p).
+  intros H. do 5 (apply Forall_cons_iff in H as [? H]). clear H.
+  assert (E : det (vsub (c0 T) q) (vsub (c2 T) q) (vsub (c1 T) q) = det d u v + det d v w + det d w u - det u v w)
+    by (unfold d, u, v, w, det, dot, cross, vsub; cbn [vx vy vz]; ring).
+  rewrite E in *. set (s := det d u v + det d v w + det d w u) in *. assert (0 < s) by (unfold s; lra).
+  exists (det u v w / s). split; [split; apply Rmult_le_reg_r with s; auto; unfold Rdiv; rewrite ?Rmult_assoc, ?Rinv_l; lra|].
+  exists (det d v w / s), (det d w u / s), (det d u v / s).
+  split; [|split; [|split; [|split]]]; try (apply Rlt_le, Rdiv_lt_0_compat; auto).
+  - unfold s. field. fold s. lra.
+  - assert (K : forall a b, s * a = s * b -> a = b) by (intros a b P; apply Rmult_eq_reg_l with s; lra).
+    assert (L : forall z, s * (z / s) = z) by (intros; field; lra).
+    apply V_eq; apply K; unfold mix, vadd, vscale; cbn [vx vy vz];
+      rewrite !Rmult_plus_distr_l, <- !Rmult_assoc, Rmult_minus_distr_l, !L;
+      unfold s, d, u, v, w, det, dot, cross, vsub; cbn [vx vy vz]; ring.
+Qed.
+
+(* the triangle, its corners one after the other *)
+Definition rolled T := mkTri (c1 T) (c2 T) (c0 T).
+Lemma of_rolled x T : of_tri x (rolled T) -> of_tri x T.
+Proof.
+  intros (a & b & c & A & B & C & S & ->). exists c, a, b. repeat split; auto; [lra|].
+  apply V_eq; unfold mix, vadd, vscale; simpl; ring.
+Qed.
+Lemma of_edge l T : 0 <= l <= 1 -> of_tri (vadd (vscale (1 - l) (c0 T)) (vscale l (c1 T))) T.
+Proof.
+  intros L. exists (1 - l), l, 0. repeat split; try lra. apply V_eq; unfold mix, vadd, vscale; simpl; ring.
+Qed.
+
 Module Make (I : IntervalOps).
 Include Checker.Make I.
 Section Meeting.
@@ -75,6 +113,39 @@ Proof.
   intros X Y H. apply Rminus_gt_0_lt, (positive_ok _ _ H), in_sub; [apply in_Q|apply in_norm, in_vsub; auto].
 Qed.
 
+(* ---- HIT: the first edge of one, either way, passes through the other *)
+Definition idet u v w := idot prec u (icross prec v w).
+Definition isides p q T :=
+  let d := isub prec q p in
+  let u := isub prec (ia T) p in let v := isub prec (ib T) p in let w := isub prec (ic T) p in
+  [idet d u v; idet d v w; idet d w u; idet u v w; idet (isub prec (ia T) q) (isub prec (ic T) q) (isub prec (ib T) q)].
+Lemma isides_ok p q T pR qR TR : inV p pR -> inV q qR -> inT T TR ->
+  forallb positive_i (isides p q T) = true -> Forall (Rlt 0) (sides pR qR TR).
+Proof.
+  intros P Q (A & B & C) H. unfold isides in H. cbn [forallb] in H. rewrite !andb_true_iff in H. destruct H as (H1 & H2 & H3 & H4 & H5 & _).
+  repeat apply Forall_cons;
+    [apply (positive_ok _ _ H1)|apply (positive_ok _ _ H2)|apply (positive_ok _ _ H3)|apply (positive_ok _ _ H4)
+    |apply (positive_ok _ _ H5)|apply Forall_nil]; apply in_dot; try apply in_cross; apply in_vsub; auto.
+Qed.
+Definition pierces A B := forallb positive_i (isides (ia A) (ib A) B) || forallb positive_i (isides (ib A) (ia A) B).
+Lemma pierces_ok A B AR BR : inT A AR -> inT B BR -> pierces A B = true -> exists x, of_tri x AR /\ of_tri x BR.
+Proof.
+  intros (P & Q & _) HB H. apply orb_true_iff in H as [H|H]; eapply isides_ok, passes in H as (l & L & X); eauto.
+  - eexists. split; [apply of_edge; eauto|exact X].
+  - exists (vadd (vscale (1 - l) (c1 AR)) (vscale l (c0 AR))). split; [|exact X].
+    replace (vadd _ _) with (vadd (vscale (1 - (1 - l)) (c0 AR)) (vscale (1 - l) (c1 AR))); [apply of_edge; lra|].
+    apply V_eq; unfold vadd, vscale; simpl; ring.
+Qed.
+Definition irolled T := mkIT (ib T) (ic T) (ia T).
+Definition from_edge k T := if (k =? 0)%Z then T else if (k =? 1)%Z then irolled T else irolled (irolled T).
+Lemma from_edge_ok k T TR : inT T TR -> exists UR, inT (from_edge k T) UR /\ forall x, of_tri x UR -> of_tri x TR.
+Proof.
+  intros (A & B & C). unfold from_edge. destruct (k =? 0)%Z; [|destruct (k =? 1)%Z].
+  - exists TR. split; [split; [|split]|]; auto.
+  - exists (rolled TR). split; [split; [|split]; auto|]. intros x. apply of_rolled.
+  - exists (rolled (rolled TR)). split; [split; [|split]; auto|]. intros x H. apply of_rolled, of_rolled, H.
+Qed.
+
 (* ---- a certificate. Behind its end are zeros. *)
 Definition field bits at_ k := match read k 0 (skipn at_ bits ++ repeat false k) with Some (z, _) => z | None => 0%Z end.
 Definition meeting (s : scene) (bytes : list Z) : answer (bool * Q) :=
@@ -91,6 +162,10 @@ Definition meeting (s : scene) (bytes : list Z) : answer (bool * Q) :=
       let v := f 136%nat in let w := f 152%nat in let v' := f 168%nat in let w' := f 184%nat in
       if is_share v && is_share w && is_share v' && is_share w' &&
         nearer (clearance s) (ipoint_of v w A) (ipoint_of v' w' B) then ends 200%nat false else no NotNear 200%nat
+    else if (field bits 0 8 =? 5)%Z then
+      let k := field bits 137 2 in
+      let '(E, F) := if (field bits 136 1 =? 0)%Z then (A, B) else (B, A) in
+      if (k =? 3)%Z then no NoEdge 139%nat else if pierces (from_edge k E) F then ends 139%nat true else no NotPierced 139%nat
     else no NotFree 0%nat
   | _, _ => no NoTriangle 136%nat end.
 Definition meets s bytes := match meeting s bytes with Yes r => Some r | No _ _ => None end.
@@ -116,7 +191,16 @@ Proof.
     split; [auto|split; [|auto]].
     destruct (in_point_of _ _ _ _ V W IA) as (x & X & IX). destruct (in_point_of _ _ _ _ V' W' IB) as (y & Y & IY).
     exists x, y. repeat split; auto. eapply nearer_ok; eauto.
-  - discriminate.
+  - destruct (_ =? 5)%Z; [|discriminate].
+    destruct (if (field (bits_of bytes) 136 1 =? 0)%Z then (A, B) else (B, A)) as [E F] eqn:Of.
+    destruct (_ =? 3)%Z; [discriminate|]. destruct (pierces _ _) eqn:N; [|discriminate].
+    destruct (_ <? _)%nat; [discriminate|]. destruct (_ <=? _)%nat; [discriminate|]. intros Y. injection Y as <- <-.
+    split; [auto|split; [|auto]].
+    destruct (_ =? 0)%Z; injection Of as <- <-.
+    + destruct (from_edge_ok (field (bits_of bytes) 137 2) A AR IA) as (UR & IU & PU).
+      destruct (pierces_ok _ _ _ _ IU IB N) as (x & X & X'). exists x. auto.
+    + destruct (from_edge_ok (field (bits_of bytes) 137 2) B BR IB) as (UR & IU & PU).
+      destruct (pierces_ok _ _ _ _ IU IA N) as (x & X & X'). exists x. auto.
 Qed.
 End Meeting.
 End Make.

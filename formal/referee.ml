@@ -157,7 +157,6 @@ let judge exact clearance a b bytes =
   else if at 2 <> fold_8 b.mesh.digest then refused "it is about another mesh b" 5
   else if 256 * at 3 + at 4 <> fold_16 motion then refused "it is about another motion, scale or clearance" 5
   else match at 0 land 3 with
-  | 1 -> ("uncovered", "hit")
   | 3 -> ("uncovered", "inside")
   | kind ->
     let ba = body a.mesh a.scale a.poses and bb = body b.mesh b.scale b.poses in
