@@ -1,4 +1,4 @@
-(* Extract.v - the checker as OCaml: over the processor's doubles, and over Zarith's integers. *)
+(* Extract.v - the checkers as OCaml: over the processor's doubles, and over Zarith's integers. *)
 From Coq Require Import ZArith Extraction ExtrOcamlBasic ExtrOcamlZBigInt ExtrOCamlInt63 ExtrOCamlFloats ExtrOcamlNatInt.
 From Interval Require Import Float.Primitive_ops.
 From Svcd Require Import Main.

@@ -1,6 +1,6 @@
 (* Statement.v - all that must be read to know what is proven: bodies that move, over the reals, and
-   `sound`, which says what an answer of a checker of certificates is worth. Main.v proves it of the
-   checker of Checker.v. How that reads bytes, builds trees and computes need not be known here. *)
+   `sound` and `sound_meeting`, which say what an answer of a checker of certificates is worth. Main.v
+   proves them of the checkers of Checker.v and Meeting.v. How these read bytes and compute need not be known. *)
 From Coq Require Import Reals List ZArith QArith Qreals.
 Local Open Scope R_scope.
 
