@@ -84,7 +84,7 @@ Proof.
   assert (IU : In U (tris b)) by (revert E; unfold triangle; destruct (_ <? _)%Z; [apply nth_error_In|discriminate]).
   pose proof (in_pose prec (size b) m t (M m F) S) as P.
   exists (placed (pieceR (size b) m) (Q2R t) (triR (den b) U)). split.
-  - repeat apply conj; apply in_place; auto; apply in_point.
+  - split; [|split]; apply in_place; auto; apply in_point.
   - intros x (a & c & e & A & C & E' & Sum & ->). rewrite <- place_mix by auto.
     apply andb_true_iff in D as [D D']. apply Qle_bool_iff, Qle_Rle in D, D'.
     exists m, U, (mix a c e (triR (den b) U)). repeat split; auto. exists a, c, e. auto.
