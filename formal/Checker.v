@@ -69,7 +69,8 @@ Definition nearest (z : Z) : Z :=
     (Z.sgn z * ((if up then q + 1 else q) * unit))%Z.
 
 (* ---- what it answers *)
-Inductive reason := Unfit | NotFree | EndsEarly | NotSeparated | TooDeep | OpensTriangles | Follows.
+Inductive reason := Unfit | NotFree | EndsEarly | NotSeparated | TooDeep | OpensTriangles | Follows
+  | NoTriangle | NotNear | NoEdge | NotPierced.
 Inductive answer (A : Type) := Yes (a : A) | No (why : reason) (rest : list bool).
 Arguments Yes {A}.
 Arguments No {A}.

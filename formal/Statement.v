@@ -1,6 +1,6 @@
 (* Statement.v - all that must be read to know what is proven: bodies that move, over the reals, and
-   `sound`, which says what an answer of a checker of certificates is worth. Main.v proves it of the
-   checker of Checker.v. How that reads bytes, builds trees and computes need not be known here. *)
+   `sound` and `sound_meeting`, which say what an answer of a checker of certificates is worth. Main.v
+   proves them of the checkers of Checker.v and Meeting.v. How these read bytes and compute need not be known. *)
 From Coq Require Import Reals List ZArith QArith Qreals.
 Local Open Scope R_scope.
 
@@ -93,7 +93,17 @@ Definition one_place b := forall m m' t x, In m (pieces b) -> In m' (pieces b) -
   place (pieceR (size b) m) t x = place (pieceR (size b) m') t x.
 Definition moves b := covers b /\ one_place b.
 
+(* HIT, and NEAR, at one time: a point is of both bodies; points of them are nearer than d *)
+Definition meet s t := exists x, at_time (body_a s) t x /\ at_time (body_b s) t x.
+Definition meet_within s d t := exists x y, at_time (body_a s) t x /\ at_time (body_b s) t y /\ norm (vsub x y) < d.
+
 (* ---- THE STATEMENT. `accepts` answers Some apart where it accepts a certificate's bytes. *)
 Definition sound (accepts : scene -> list Z -> option bool) := forall s bytes apart,
   accepts s bytes = Some apart ->
   never_meet s /\ (apart = true -> once_apart s /\ never_inside s) /\ moves (body_a s) /\ moves (body_b s).
+
+(* ---- AND THAT OF MEETINGS. `meets` answers Some (true, t) of a HIT, Some (false, t) of a NEAR. *)
+Definition sound_meeting (meets : scene -> list Z -> option (bool * Q)) := forall s bytes hit t,
+  meets s bytes = Some (hit, t) ->
+  0 <= Q2R t <= 1 /\ (if hit then meet s (Q2R t) else meet_within s (Q2R (clearance s)) (Q2R t)) /\
+  moves (body_a s) /\ moves (body_b s).

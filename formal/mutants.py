@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""mutants.py PROBLEMS.txt FOLDER COUNT OUT.txt OUT_FOLDER - writes COUNT mutants of the FREE certificates of a problem file:
-bits flipped behind the header, or anywhere, the end cut off or lengthened, a stretch of bytes swapped for another's.
+"""mutants.py PROBLEMS.txt FOLDER COUNT OUT.txt OUT_FOLDER - writes COUNT mutants of the FREE certificates of a problem file, and
+COUNT of those of HIT and NEAR: bits flipped behind the header, or anywhere, the end cut off or lengthened, a stretch of bytes swapped for another's.
 OUT.txt must lie in the folder of PROBLEMS.txt, which its meshes are relative to."""
 import os
 import random
@@ -19,16 +19,16 @@ def main():
       blocks[-1][1].append(line)
     else:
       head.append(line)
-  free = []
+  free, meetings = [], []
   for words, poses in blocks:
     cert = open('%s/%s.cert' % (folder, words[1]), 'rb').read()
-    if cert[0] == 4:
-      free.append((words, poses, cert))
+    if cert[0] < 7:
+      (free if cert[0] == 4 else meetings).append((words, poses, cert))
   os.makedirs(out_folder, exist_ok=True)
   with open(out, 'w') as text:
     text.write(''.join(head))
-    for k in range(int(count) if free else 0):
-      words, poses, cert = free[k % len(free)]
+    for k, kin in [(k, kin) for kin in (free, meetings) if kin for k in range(int(count))]:
+      words, poses, cert = kin[k % len(kin)]
       bits, kind = bytearray(cert), rng.randrange(10)
       if kind < 6:  # flips: mostly behind the header, of which a digest would tell
         for _ in range(1 + kind % 3):
@@ -39,10 +39,10 @@ def main():
       elif kind < 9:
         bits += bytes(rng.randrange(256) for _ in range(rng.randrange(1, 4)))
       else:
-        other = rng.choice(free)[2]
+        other = rng.choice(kin)[2]
         at = rng.randrange(min(5, len(bits)), len(bits) + 1)
         bits[at:] = other[at:]
-      name = 'm%d' % k
+      name = '%s%d' % ('m' if kin is free else 'n', k)
       open('%s/%s.cert' % (out_folder, name), 'wb').write(bytes(bits))
       text.write(' '.join(['problem', name] + words[2:]) + '\n' + ''.join(poses))
 

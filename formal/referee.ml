@@ -1,5 +1,5 @@
-(* referee.ml - build/referee: the checker that Checker.v proves sound, on the files that build/verify
-   reads (examples/FORMATS.md), by code that shares no line with it.
+(* referee.ml - build/referee: the checkers that Checker.v and Meeting.v prove sound, on the files that
+   build/verify reads (examples/FORMATS.md), by code that shares no line with it.
 
      referee PROBLEMS.txt FOLDER [--clearance METRES] [--only ID,ID] [--exact] [--coq]
 
@@ -132,7 +132,9 @@ let motion_digest scale poses = hash (hash (List.length poses) (List.map word (L
 let text_of = function
   | EndsEarly -> "it ends early" | NotSeparated -> "a plane does not part its nodes" | TooDeep -> "it is too deep"
   | OpensTriangles -> "it opens triangles" | Follows -> "something follows its end" | Unfit -> "a motion is unfit"
-  | NotFree -> "it is no certificate of version 1"
+  | NotFree -> "it is no certificate of version 1" | NoTriangle -> "it names a triangle that there is not"
+  | NotNear -> "two points are not as near as that" | NoEdge -> "it names an edge that there is not"
+  | NotPierced -> "an edge does not pass through a triangle"
 
 type side = { mesh : mesh; scale : real; poses : real list list }
 
@@ -155,16 +157,20 @@ let judge exact clearance a b bytes =
   else if at 2 <> fold_8 b.mesh.digest then refused "it is about another mesh b" 5
   else if 256 * at 3 + at 4 <> fold_16 motion then refused "it is about another motion, scale or clearance" 5
   else match at 0 land 3 with
-  | 1 -> ("uncovered", "hit") | 2 -> ("uncovered", "near") | 3 -> ("uncovered", "inside")
-  | _ ->
+  | 3 -> ("uncovered", "inside")
+  | kind ->
     let ba = body a.mesh a.scale a.poses and bb = body b.mesh b.scale b.poses in
     let scene = { body_a = ba; body_b = bb; clearance = rational clearance } in
     let list = List.init size (fun k -> z (at k)) in
-    match if exact then check_Z scene (kept_Z a ba) (kept_Z b bb) list
+    let refused_at why rest = refused (text_of why) ((8 * size - List.length rest) / 8) in
+    if kind <> 0 then match if exact then meeting_Z scene list else meeting_double scene list with
+      | Yes (hit, _) -> ("accepted", if hit then "hit" else "near")
+      | No (why, rest) -> refused_at why rest
+    else match if exact then check_Z scene (kept_Z a ba) (kept_Z b bb) list
       else check_double scene (kept_double a ba) (kept_double b bb) list with
     | Yes (true, _) -> ("accepted", "free")
     | Yes (false, _) -> ("uncovered", "surfaces never meet; rays follow")
-    | No (why, rest) -> refused (text_of why) ((8 * size - List.length rest) / 8)
+    | No (why, rest) -> refused_at why rest
 
 (* ---- as Coq terms: the scenes of Scenes.v *)
 

@@ -2,19 +2,21 @@
 # Writes formal/Scenes.v anew: the scenes of scenes.txt, with certificates by build/svcd, as Coq terms by build/referee.
 # From the repository's root.
 set -eu
-mkdir -p build/formal/scenes
+mkdir -p build/formal/scenes build/formal/scenes/within
 build/svcd check --certificates build/formal/scenes formal/scenes/scenes.txt >/dev/null 2>&1
+build/svcd check --clearance 0.2 --certificates build/formal/scenes/within formal/scenes/scenes.txt >/dev/null 2>&1
 {
   cat <<'END'
-(* Scenes.v - three certificates that nsvcd_certify made, checked by Coq's kernel: of formal/scenes, written by
+(* Scenes.v - five certificates that nsvcd_certify made, checked by Coq's kernel: of formal/scenes, written by
    formal/scenes/make.sh. *)
-From Coq Require Import List ZArith QArith.
+From Coq Require Import Reals List ZArith QArith Qreals.
 From Svcd Require Export Main.
 Import ListNotations.
 Local Open Scope Q_scope.
 
 END
-  build/referee formal/scenes/scenes.txt build/formal/scenes --coq
+  build/referee formal/scenes/scenes.txt build/formal/scenes --coq --only near,both,shaft,through
+  build/referee formal/scenes/scenes.txt build/formal/scenes/within --coq --clearance 0.2 --only close
   cat <<'END'
 
 Theorem near_free : never_meet near /\ never_inside near.
@@ -33,6 +35,20 @@ Qed.
 Theorem shaft_free : never_meet shaft.
 Proof.
   apply (accepts_Z_sound shaft shaft_bytes false). vm_cast_no_check (eq_refl (Some false)).
+Qed.
+
+Theorem through_hits : exists t, (0 <= Q2R t <= 1)%R /\ meet through (Q2R t).
+Proof.
+  assert (H : match meets_Z through through_bytes with Some (true, _) => True | _ => False end)
+    by vm_cast_no_check Logic.I.
+  destruct (meets_Z _ _) as [[[|] t]|] eqn:E; [|destruct H|destruct H]. apply meets_Z_sound in E. exists t. tauto.
+Qed.
+
+Theorem close_near : exists t, (0 <= Q2R t <= 1)%R /\ meet_within close (Q2R (clearance close)) (Q2R t).
+Proof.
+  assert (H : match meets_Z close close_bytes with Some (false, _) => True | _ => False end)
+    by vm_cast_no_check Logic.I.
+  destruct (meets_Z _ _) as [[[|] t]|] eqn:E; [destruct H| |destruct H]. apply meets_Z_sound in E. exists t. tauto.
 Qed.
 END
 } >formal/Scenes.v
