@@ -44,7 +44,7 @@ for set in $sets; do
     build/svcd check --repeat 1 --clearance $clearance --certificates $certificates $file >/dev/null 2>&1
     compare "$name" $file $certificates $clearance
     rm -rf $certificates.mutants
-    python3 formal/mutants.py $file $certificates ${FORMAL_MUTANTS:-60} $certificates.mutants.txt $certificates.mutants
+    python3 formal/mutants.py $file $certificates ${FORMAL_MUTANTS:-30} $certificates.mutants.txt $certificates.mutants
     ! grep -qs '^problem' $certificates.mutants.txt || compare "$name, mutants" $certificates.mutants.txt $certificates.mutants $clearance
   done
 done
