@@ -1,6 +1,7 @@
 (* Statement.v - all that must be read to know what is proven: bodies that move, over the reals, and
    `sound` and `sound_meeting`, which say what an answer of a checker of certificates is worth. Main.v
-   proves them of the checkers of Checker.v and Meeting.v. How these read bytes and compute need not be known. *)
+   proves them of the checkers of Checker.v and Meeting.v. How these read a certificate's bytes and compute need
+   not be known. What makes a `scene` of files, and what runs the checker, is to be believed besides. *)
 From Coq Require Import Reals List ZArith QArith Qreals.
 Local Open Scope R_scope.
 
@@ -12,7 +13,7 @@ Definition vsub a b := mkV (vx a - vx b) (vy a - vy b) (vz a - vz b).
 Definition vscale k a := mkV (k * vx a) (k * vy a) (k * vz a).
 Definition norm a := sqrt (dot a a).
 
-(* ---- quaternions x y z w, and the rotation of one of any length but 0: |q|^2 times it is `turned` *)
+(* ---- quaternions x y z w. `rot q` is v -> q v q^-1, for any q but 0, and `turned q` |q|^2 times that *)
 Record quat := mkQ { qx : R; qy : R; qz : R; qw : R }.
 Definition qdot a b := qx a * qx b + qy a * qy b + qz a * qz b + qw a * qw b.
 Definition qcomb s a t b := mkQ (s * qx a + t * qx b) (s * qy a + t * qy b)
@@ -27,18 +28,19 @@ Definition turned q v := mkV
    + (qdot q q - 2 * (qx q * qx q + qy q * qy q)) * vz v).
 Definition rot q v := vscale (/ qdot q q) (turned q v).
 
-(* of unit quaternions: half the angle of the turn, and the rotation at a share u of the way *)
+(* of unit quaternions: half the angle of the turn; and the great arc, at a share u of the way. sin h is 0
+   only where a = b, if b is the `shorter` way round *)
 Definition angle a b := acos (qdot a b).
 Definition slerp a b u :=
   let h := angle a b in
   if Req_EM_T (sin h) 0 then a
   else qcomb (sin ((1 - u) * h) / sin h) a (sin (u * h) / sin h) b.
+(* -b turns as b does. At a half turn, qdot 0, b stays as it is given: its sign picks the way round *)
 Definition unitq q := qscale (/ sqrt (qdot q q)) q.
 Definition shorter a b := if Rlt_dec (qdot a b) 0 then qscale (-1) b else b.
 
-(* ---- a piece of a motion, between the times k0 < k1: the position linear, the rotation a slerp *)
-Record piece := mkPiece {
-  k0 : R; k1 : R; scale : R; p0 : V; p1 : V; q0 : quat; q1 : quat }.
+(* ---- a piece of a motion, from k0 to k1: the position linear, the rotation a slerp about the mesh's origin *)
+Record piece := mkPiece { k0 : R; k1 : R; scale : R; p0 : V; p1 : V; q0 : quat; q1 : quat }.
 Definition share m t := (t - k0 m) / (k1 m - k0 m).
 Definition origin m t := let u := share m t in vadd (vscale (1 - u) (p0 m)) (vscale u (p1 m)).
 Definition place m t x := vadd (vscale (scale m) (rot (slerp (q0 m) (q1 m) (share m t)) x)) (origin m t).
@@ -48,7 +50,8 @@ Record tri := mkTri { c0 : V; c1 : V; c2 : V }.
 Definition mix a b c T := vadd (vscale a (c0 T)) (vadd (vscale b (c1 T)) (vscale c (c2 T))).
 Definition of_tri x T := exists a b c, 0 <= a /\ 0 <= b /\ 0 <= c /\ a + b + c = 1 /\ x = mix a b c T.
 
-(* ---- a scene as a checker has it: exact numbers, corners in units of 1 / den *)
+(* ---- a scene as a checker has it: exact numbers, corners in units of 1 / den, a quaternion's x y z w in
+   ha hb hc hd, a scale as `size`. The whole motion is from time 0 to 1 *)
 Record zv := mkZ { zx : Z; zy : Z; zz : Z }.
 Record ztri := mkZT { za : zv; zb : zv; zc : zv }.
 Record pose := mkPose { px : Q; py : Q; pz : Q; ha : Q; hb : Q; hc : Q; hd : Q }.
@@ -86,21 +89,28 @@ Definition free_way b t x := exists way : R -> V, way 0 = x /\
 Definition never_inside s := forall t x, 0 <= t <= 1 -> (at_time (body_a s) t x -> free_way (body_b s) t x) /\
   (at_time (body_b s) t x -> free_way (body_a s) t x).
 
-(* a body is at one place at each time: so never_meet speaks of all times, and of one motion *)
+(* at each time a body is somewhere, and at one place only: never_meet is about one motion, and all of it *)
 Definition covers b := forall t, 0 <= t <= 1 -> exists m, In m (pieces b) /\ Q2R (t_from m) <= t <= Q2R (t_to m).
 Definition one_place b := forall m m' t x, In m (pieces b) -> In m' (pieces b) ->
   Q2R (t_from m) <= t <= Q2R (t_to m) -> Q2R (t_from m') <= t <= Q2R (t_to m') ->
   place (pieceR (size b) m) t x = place (pieceR (size b) m') t x.
 Definition moves b := covers b /\ one_place b.
 
+(* and nothing is degenerate but what may be: a mesh without triangles, a size of 0 *)
+Definition proper b := 0 <= Q2R (size b) /\ forall m, In m (pieces b) -> Q2R (t_from m) < Q2R (t_to m) /\
+  0 < qdot (quatR (pose_from m)) (quatR (pose_from m)) /\ 0 < qdot (quatR (pose_to m)) (quatR (pose_to m)).
+Definition well_posed s := 0 <= Q2R (clearance s) /\ proper (body_a s) /\ proper (body_b s).
+
 (* HIT, and NEAR, at one time: a point is of both bodies; points of them are nearer than d *)
 Definition meet s t := exists x, at_time (body_a s) t x /\ at_time (body_b s) t x.
 Definition meet_within s d t := exists x y, at_time (body_a s) t x /\ at_time (body_b s) t y /\ norm (vsub x y) < d.
 
-(* ---- THE STATEMENT. `accepts` answers Some apart where it accepts a certificate's bytes. *)
+(* ---- THE STATEMENT. `accepts` answers Some apart where it accepts a certificate's bytes. Of None nothing is
+   said; of Some false not whether one body is inside of the other. *)
 Definition sound (accepts : scene -> list Z -> option bool) := forall s bytes apart,
   accepts s bytes = Some apart ->
-  never_meet s /\ (apart = true -> once_apart s /\ never_inside s) /\ moves (body_a s) /\ moves (body_b s).
+  never_meet s /\ (apart = true -> once_apart s /\ never_inside s) /\
+  moves (body_a s) /\ moves (body_b s) /\ well_posed s.
 
 (* ---- AND THAT OF MEETINGS. `meets` answers Some (true, t) of a HIT, Some (false, t) of a NEAR. *)
 Definition sound_meeting (meets : scene -> list Z -> option (bool * Q)) := forall s bytes hit t,
