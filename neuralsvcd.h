@@ -15884,23 +15884,11 @@ static nsvcd__f3 nsvcd__point_of(const nsvcd__geometry *f, size_t patch,
 #define NSVCD__FEW_POINTS 48
 static void nsvcd__few_points(const nsvcd__geometry *f, size_t patch,
                               nsvcd__patch_points points, float (*out)[NSVCD__FEW_POINTS]) {
-  const nsvcd__vertices stored = nsvcd__vertices_of(f, patch);
-  const nsvcd__f3 centre = nsvcd__patch_centre(f, patch);
-  const float step = f->steps[patch];
-  const size_t references = points.stored + points.own;
-  for (size_t i = 0; i < points.stored; i++) {
-    out[0][i] = centre.x + step * (float)stored.x[i];
-    out[1][i] = centre.y + step * (float)stored.y[i];
-    out[2][i] = centre.z + step * (float)stored.z[i];
-  }
-  const float *own = f->positions + 3 * (size_t)f->first_own[patch];
-  for (size_t i = points.stored; i < references; i++, own += 3) {
-    for (size_t axis = 0; axis < 3; axis++) out[axis][i] = own[axis];
-  }
-  for (size_t i = references; i < points.all; i++) {
-    const size_t at = f->first_reference[patch] + i - references;
-    const float *other = f->positions + 3 * nsvcd__reference_at(f, at);
-    for (size_t axis = 0; axis < 3; axis++) out[axis][i] = other[axis];
+  for (size_t i = 0; i < points.all; i++) {
+    const nsvcd__f3 point = nsvcd__point_of(f, patch, points, i);
+    out[0][i] = point.x;
+    out[1][i] = point.y;
+    out[2][i] = point.z;
   }
 }
 

@@ -385,7 +385,7 @@ static void note_claim(request *asked, const nsvcd_verify_mover *a, const nsvcd_
   nsvcd_verify_sha_add(&asked->claimed, claim, sizeof claim);
 }
 
-// Writes a certificate's line: why: NULL: it is accepted, and proves this; at: the byte where it is refused.
+// Writes a certificate's line. why: NULL: it is accepted, and proves this; at: the byte where it is refused.
 static void print_line(request *asked, const char *id, const char *why, const char *proven,
                        size_t size, size_t at, double taken) {
   if (!why) printf("%s\taccepted\t%s\t%zu\t%.1f", id, proven, size, taken);
