@@ -379,7 +379,7 @@ Proof. intros ? (A & B & C & D) ? (E & F & G & H). repeat split; simpl; auto wit
 Lemma in_4scale s a sr ar : inI s sr -> inQ4 a ar -> inQ4 (i4scale s a) (qscale sr ar).
 Proof. intros ? (A & B & C & D). repeat split; simpl; auto with iv. Qed.
 
-Definition i4_of p := mkI4 (iQ (ha p)) (iQ (hb p)) (iQ (hc p)) (iQ (hd p)).
+Definition i4_of p := mkI4 (iQ (hx p)) (iQ (hy p)) (iQ (hz p)) (iQ (hw p)).
 Lemma in_4_of p : inQ4 (i4_of p) (quatR p).
 Proof. repeat split; apply in_Q. Qed.
 Definition one := I.fromZ prec 1.
@@ -391,10 +391,10 @@ Proof.
 Qed.
 
 (* exact decisions on quaternions *)
-Definition qdotQ a b := (ha a * ha b + hb a * hb b + hc a * hc b + hd a * hd b)%Q.
+Definition qdotQ a b := (hx a * hx b + hy a * hy b + hz a * hz b + hw a * hw b)%Q.
 Lemma qdotQ_R a b : Q2R (qdotQ a b) = qdot (quatR a) (quatR b).
 Proof. unfold qdotQ, qdot; simpl. rewrite !Q2R_plus, !Q2R_mult. reflexivity. Qed.
-Definition negQ p := mkPose (px p) (py p) (pz p) (- ha p) (- hb p) (- hc p) (- hd p).
+Definition negQ p := mkPose (px p) (py p) (pz p) (- hx p) (- hy p) (- hz p) (- hw p).
 Definition shorterQ a b := if Qle_bool 0 (qdotQ a b) then b else negQ b.
 Lemma Q2R_0 : Q2R 0 = 0. Proof. unfold Q2R; simpl; lra. Qed.
 Lemma Q2R_1 : Q2R 1 = 1. Proof. unfold Q2R; simpl; lra. Qed.
@@ -434,7 +434,7 @@ Proof.
   - repeat split; simpl; auto 10 with iv.
   - destruct Body as (X & Y & Z). unfold dot. auto 10 with iv.
 Qed.
-Definition same_turn a b := Qeq_bool (ha a) (ha b) && Qeq_bool (hb a) (hb b) && Qeq_bool (hc a) (hc b) && Qeq_bool (hd a) (hd b).
+Definition same_turn a b := Qeq_bool (hx a) (hx b) && Qeq_bool (hy a) (hy b) && Qeq_bool (hz a) (hz b) && Qeq_bool (hw a) (hw b).
 Lemma same_turn_R p q : same_turn p q = true -> quatR p = quatR q.
 Proof.
   unfold same_turn. rewrite !andb_true_iff. intros (((A & B) & C) & D).

@@ -3,11 +3,10 @@
    No rounding here; nothing but the standard reals and Coquelicot. *)
 From Coq Require Import Reals Lra Psatz.
 From Coquelicot Require Import Coquelicot.
-From Svcd Require Export Statement.
+From Svcd Require Export Answers.
 Local Open Scope R_scope.
 
 (* ---- vectors *)
-Definition cross a b := mkV (vy a * vz b - vz a * vy b) (vz a * vx b - vx a * vz b) (vx a * vy b - vy a * vx b).
 
 Lemma V_eq a b : vx a = vx b -> vy a = vy b -> vz a = vz b -> a = b.
 Proof. destruct a, b; simpl; intros; subst; reflexivity. Qed.
@@ -594,5 +593,6 @@ Definition row2 q := vscale (/ qdot q q) (mkV (2 * (qx q * qz q - qy q * qw q))
 
 Lemma rot_rows q v : rot q v = mkV (dot (row0 q) v) (dot (row1 q) v) (dot (row2 q) v).
 Proof.
-  unfold rot. apply V_eq; unfold row0, row1, row2, turned, dot, vscale; cbn [vx vy vz]; ring.
+  unfold rot, row0, row1, row2. generalize (/ qdot q q). intros k.
+  apply V_eq; unfold turned, qdot, dot, vscale; cbn [vx vy vz]; ring.
 Qed.

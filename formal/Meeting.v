@@ -17,7 +17,6 @@ Qed.
 
 (* ---- an edge from p to q passes through a triangle, if these are above 0: on which side of each edge it
    passes; and on which sides of the triangle its ends are *)
-Definition det u v w := dot u (cross v w).
 Definition sides p q T :=
   let d := vsub q p in
   let u := vsub (c0 T) p in let v := vsub (c1 T) p in let w := vsub (c2 T) p in

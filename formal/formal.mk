@@ -2,13 +2,14 @@
 # Debian: coq libcoq-coquelicot libcoq-interval; for the referee also libcoq-core-ocaml-dev libzarith-ocaml-dev ocaml-findlib; and
 # gappa; frama-c-base why3 cvc4.
 COQC = coqc -q -noglob -w -all -R build/formal Svcd
-FORMAL = Statement Geometry Inside Checker Meeting Main Scenes Box
+FORMAL = Statement Answers Geometry Inside Checker Meeting Main Scenes Box
 
 # Each file needs the one before it.
 build/formal/%.vo: formal/%.v
 	@mkdir -p $(@D)
 	$(COQC) -o $@ $<
-build/formal/Geometry.vo: build/formal/Statement.vo
+build/formal/Answers.vo: build/formal/Statement.vo
+build/formal/Geometry.vo: build/formal/Answers.vo
 build/formal/Inside.vo: build/formal/Geometry.vo
 build/formal/Checker.vo build/formal/Box.vo: build/formal/Inside.vo
 build/formal/Meeting.vo: build/formal/Checker.vo

@@ -119,7 +119,7 @@ let rec same_way = function
   | _ -> true
 let body mesh scale poses =
   let exact pose = match List.map rational pose with
-    | [x; y; w; a; b; c; d] -> { px = x; py = y; pz = w; ha = a; hb = b; hc = c; hd0 = d } | _ -> assert false in
+    | [x; y; w; a; b; c; d] -> { px = x; py = y; pz = w; hx = a; hy = b; hz = c; hw = d } | _ -> assert false in
   let poses = Array.of_list (List.map exact poses) in
   let last = Array.length poses - 1 in
   let knot k = rational (if last = 0 then float_of_int k else float_of_int k /. float_of_int last) in
@@ -179,7 +179,7 @@ let print_coq id clearance a b bytes =
   let q x = Printf.sprintf "(%s # %s)" (number x.qnum) (number x.qden) in
   let point p = Printf.sprintf "(mkZ %s %s %s)" (number p.zx) (number p.zy) (number p.zz) in
   let triangle t = Printf.sprintf "mkZT %s %s %s" (point t.za) (point t.zb) (point t.zc) in
-  let pose p = "(mkPose " ^ String.concat " " (List.map q [p.px; p.py; p.pz; p.ha; p.hb; p.hc; p.hd0]) ^ ")" in
+  let pose p = "(mkPose " ^ String.concat " " (List.map q [p.px; p.py; p.pz; p.hx; p.hy; p.hz; p.hw]) ^ ")" in
   let piece p = Printf.sprintf "mkQP %s %s\n    %s\n    %s" (q p.t_from) (q p.t_to) (pose p.pose_from) (pose p.pose_to) in
   let body s = let b = body s.mesh s.scale s.poses in
     Printf.sprintf "(mkBody %s [\n  %s] %s [\n  %s])" (number b.den) (String.concat ";\n  " (List.map triangle b.tris))
