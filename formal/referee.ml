@@ -362,7 +362,8 @@ let () =
     | Some bytes when !coq -> print_coq id !clearance a b bytes
     | Some bytes ->
       let start = Sys.time () in
-      let verdict, reason = judge !exact !clearance a b bytes in
+      let verdict, reason = try judge !exact !clearance a b bytes
+        with Stack_overflow -> ("uncovered", "it takes more stack than there is (ulimit -s)") in
       let taken = 1e6 *. (Sys.time () -. start) in
       let claim = if !claims && verdict = "accepted" then claim !clearance a b else "" in
       say ~claim id verdict reason (String.length bytes) taken in
