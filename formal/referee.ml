@@ -84,22 +84,26 @@ let fold_8 digest = let d = digest lxor (digest lsr 16) in (d lxor (d lsr 8)) la
 
 (* ---- SHA-256 (FIPS 180-4): a claim names what is proven, and proves nothing *)
 
+let bytes_of add words =
+  let bytes = Buffer.create 1024 in
+  List.iter (fun x -> add bytes (Int32.of_int x)) words;
+  Buffer.contents bytes
+let little words = bytes_of Buffer.add_int32_le words
 (* the first 32 bits behind the point of roots of primes *)
 let fractions root count =
   let is_prime n = List.for_all (fun d -> n mod d <> 0) (List.init (n - 2) (fun k -> k + 2)) in
   let primes = List.filteri (fun k _ -> k < count) (List.filter is_prime (List.init 310 (fun k -> k + 2))) in
   let bits p = Zarith.root (shifted (z p) (32 * root)) root in
-  Array.of_list (List.map (fun p -> Zarith.to_int (bits p) land 0xffffffff) primes)
-let keys = fractions 3 64
+  List.map (fun p -> Zarith.to_int (bits p) land 0xffffffff) primes
+let keys = Array.of_list (fractions 3 64)
 let sha_256 text =
   let size = String.length text in
   let padded = Bytes.make ((size + 72) / 64 * 64) '\000' in
   Bytes.blit_string text 0 padded 0 size;
   Bytes.set padded size '\x80';
   Bytes.set_int64_be padded (Bytes.length padded - 8) (Int64.of_int (8 * size));
-  let state = fractions 2 8 in
-  let turned x n = (x lsr n) lor (x lsl (32 - n)) in
-  let low x = x land 0xffffffff in
+  let state = ref (fractions 2 8) in
+  let turned x n = (x lsr n) lor (x lsl (32 - n)) and low x = x land 0xffffffff in
   for block = 0 to Bytes.length padded / 64 - 1 do
     let word i = low (Int32.to_int (Bytes.get_int32_be padded (64 * block + 4 * i))) in
     let w = Array.init 64 (fun i -> if i < 16 then word i else 0) in
@@ -108,24 +112,16 @@ let sha_256 text =
       w.(i) <- low (w.(i - 16) + low (turned x 7 lxor turned x 18 lxor (x lsr 3))
                     + w.(i - 7) + low (turned y 17 lxor turned y 19 lxor (y lsr 10)))
     done;
-    let round i = function
+    let round state i = match state with
       | [a; b; c; d; e; f; g; h] ->
         let one = h + low (turned e 6 lxor turned e 11 lxor turned e 25) + ((e land f) lxor (lnot e land g)) + keys.(i) + w.(i) in
         let two = low (turned a 2 lxor turned a 13 lxor turned a 22) + ((a land b) lxor (a land c) lxor (b land c)) in
         [low (one + two); a; b; c; low (d + one); e; f; g]
       | _ -> assert false in
-    let after = List.fold_left (fun s i -> round i s) (Array.to_list state) (List.init 64 Fun.id) in
-    List.iteri (fun k x -> state.(k) <- low (state.(k) + x)) after
+    state := List.map2 (fun x y -> low (x + y)) !state (List.fold_left round !state (List.init 64 Fun.id))
   done;
-  let sum = Buffer.create 32 in
-  Array.iter (fun x -> Buffer.add_int32_be sum (Int32.of_int x)) state;
-  Buffer.contents sum
+  bytes_of Buffer.add_int32_be !state
 let hexadecimal text = String.concat "" (List.map (fun c -> Printf.sprintf "%02x" (Char.code c)) (List.of_seq (String.to_seq text)))
-(* words as bytes, the lowest first *)
-let bytes_of words =
-  let bytes = Buffer.create 1024 in
-  List.iter (fun x -> Buffer.add_int32_le bytes (Int32.of_int x)) words;
-  Buffer.contents bytes
 
 (* ---- meshes *)
 
@@ -159,8 +155,7 @@ let cut_ears path points face =
   let queue = Queue.of_seq (List.to_seq (List.init n Fun.id)) and waits = Array.make n true in
   let rec cut found left next =
     if left = 3 then List.rev ((face.(next), face.(after.(next)), face.(before.(next))) :: found)
-    else
-      let waited = Queue.take_opt queue in
+    else let waited = Queue.take_opt queue in
       let b = Option.value waited ~default:next in
       if waited <> None then waits.(b) <- false;
       if waited <> None && not (is_ear b) then cut found left next
@@ -172,7 +167,6 @@ let cut_ears path points face =
   cut [] n 0
 
 let starts_with start text = String.length text >= String.length start && String.sub text 0 (String.length start) = start
-
 let read_obj path text =
   let points = ref [] and count = ref 0 and faces = ref [] in
   let corner word = match integer (List.hd (String.split_on_char '/' word)) with
@@ -229,7 +223,7 @@ let read_mesh name path =
   let count = Array.length points and words = List.rev (List.rev_map word all) in
   let indices = List.concat_map (fun (a, b, c) -> [a; b; c]) faces in
   { name; unit_; triangles = List.rev (List.rev_map triangle faces); digest = hash (hash count words) indices;
-    sum = lazy (sha_256 ("nsvcd mesh 1" ^ bytes_of ([count; List.length faces] @ words @ indices))) }
+    sum = lazy (sha_256 ("nsvcd mesh 1" ^ little [count; List.length faces] ^ little words ^ little indices)) }
 
 (* ---- motions *)
 
@@ -288,9 +282,9 @@ let kept_Z = kept tree_Z
 
 (* examples/verify/nsvcd_verify_claim.h: the bytes *)
 let claim clearance a b =
-  let side s = Lazy.force s.mesh.sum ^ bytes_of [word s.scale] ^ "\001" ^ bytes_of [List.length s.poses] ^ "\000"
-    ^ bytes_of (List.concat_map (List.map word) s.poses) in
-  hexadecimal (sha_256 ("nsvcd claim 1" ^ bytes_of [word clearance] ^ side a ^ side b))
+  let side s = Lazy.force s.mesh.sum ^ little [word s.scale] ^ "\001" ^ little [List.length s.poses] ^ "\000"
+    ^ little (List.concat_map (List.map word) s.poses) in
+  hexadecimal (sha_256 ("nsvcd claim 1" ^ little [word clearance] ^ side a ^ side b))
 
 let judge exact clearance a b bytes =
   let size = String.length bytes in
@@ -384,7 +378,7 @@ let () =
       run rest
     | ("problem" :: id :: mesh_a :: scale_a :: mesh_b :: scale_b :: more) :: rest when List.length more >= 10 ->
       let count word = match integer word with
-        | Some n when n >= 1 && n <= 65536 -> n | _ -> fail path "a COUNT is out of range" in
+        | Some n when n >= 1 && n <= 65536 && word.[0] <> '+' -> n | _ -> fail path "a COUNT is out of range" in
       let rec poses k found lines = match lines with
         | _ when k = 0 -> (List.rev found, lines)
         | line :: rest -> poses (k - 1) (read_pose path line :: found) rest
