@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """formats.py PROBLEMS.txt OUT - writes a problem file anew whose meshes are OBJ of triangles, with each of them in three other ways:
 OUT.binary.txt as binary STL, OUT.text.txt as STL in words, OUT.faces.txt as OBJ of faces of up to 12 corners, bent ones too, and with
-all else that a line may hold. Prints the names of the three. The faces are not those of the file: their triangles share its edges."""
+all else that a line may hold; and a problem of the least and the greatest scale. Prints the names of the three. The faces are not those
+of the file: their triangles share its edges."""
 import os
 import random
 import struct
@@ -67,8 +68,8 @@ def merged(faces):
 def obj(vertices, faces):
   def corner(v):
     return rng.choice(['%d', '%d', '%d/7', '%d//', '%d/1/2']) % (v + 1) if rng.random() < 0.8 else str(v - len(vertices))
-  out = ['o a # b \\', 'vn 0 0 1', 's off']
-  out += ['v %s%s' % (' '.join(repr(x) for x in v), rng.choice(['', '', '\t1', ' 0.5 nan 1 # c'])) for v in vertices]
+  out = ['v %s%s' % (' '.join(repr(x) for x in v), rng.choice(['', '', '\t1', ' 0.5 nan 1 # c', ' # \\'])) for v in vertices]
+  out += ['o a', 'vn 0 0 1', 's off']
   ends = rng.choice(['\n', '\r\n', '\r'])
   for face in merged(faces):
     out.append('f ' + ''.join(corner(v) + rng.choice([' ', ' ', '\t', ' \\' + ends, '\\' + ends + '\\' + ends + ' ']) for v in face))
@@ -79,6 +80,7 @@ def main():
   problems, base = sys.argv[1:3]
   for kind, write, ending in (('binary', binary, 'stl'), ('text', text, 'STL'), ('faces', obj, 'obj')):
     os.makedirs('%s.%s' % (base, kind), exist_ok=True)
+    name = ''
     with open('%s.%s.txt' % (base, kind), 'w') as out:
       for line in open(problems):
         words = line.split()
@@ -87,6 +89,8 @@ def main():
           open(path, 'wb').write(write(*read_obj(os.path.join(os.path.dirname(problems), words[2]))))
           line = 'mesh %s %s\n' % (words[1], os.path.relpath(path, os.path.dirname(base)))
         out.write(line)
+        name = words[1] if words and words[0] == 'mesh' else name
+      out.write('problem scales %s 1e-6 %s 1e6 0 0 0 0 0 0 1 -1 nan 1\n1e6 0 0 0 0 0 1\n' % (name, name))
     print('%s.%s.txt' % (base, kind))
 
 
