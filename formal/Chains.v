@@ -133,3 +133,171 @@ Proof.
   apply V_eq; unfold vadd, vscale, cross, dot, plus, mult; simpl;
     [apply (E _ _ (q1 * s * vx (y u)))|apply (E _ _ (q1 * s * vy (y u)))|apply (E _ _ (q1 * s * vz (y u)))]; ring.
 Qed.
+
+(* ---- a curve on a stretch, by its share u from 0 to 1: never farther than L from 0, its speed W at most, its bend B *)
+Definition tame (y : R -> V) L W B := exists y1 y2, forall u, 0 <= u <= 1 ->
+  derives y u (y1 u) /\ derives y1 u (y2 u) /\ norm (y u) <= L /\ norm (y1 u) <= W /\ norm (y2 u) <= B.
+Definition tame_value (q : R -> R) M V A := exists q1 q2, forall u, 0 <= u <= 1 ->
+  is_derive q u (q1 u) /\ is_derive q1 u (q2 u) /\ Rabs (q u) <= M /\ Rabs (q1 u) <= V /\ Rabs (q2 u) <= A.
+Lemma norm_scaled k v K N : Rabs k <= K -> norm v <= N -> norm (vscale k v) <= K * N.
+Proof.
+  intros A B. replace (norm (vscale k v)) with (Rabs k * norm v).
+  - apply Rmult_le_compat; auto; [apply Rabs_pos|apply norm_pos].
+  - unfold norm. rewrite <- sqrt_Rsqr_abs, <- sqrt_mult by (apply Rle_0_sqr || apply dot_pos).
+    f_equal. unfold Rsqr, dot, vscale; simpl; ring.
+Qed.
+Lemma norm_sum v w A B : norm v <= A -> norm w <= B -> norm (vadd v w) <= A + B.
+Proof. intros. pose proof (norm_vadd v w). lra. Qed.
+Lemma norm_across a v N : dot a a = 1 -> norm v <= N -> norm (cross a v) <= N.
+Proof. intros A H. pose proof (cross_norm a v) as C. unfold norm at 2 in C. rewrite A, sqrt_1 in C. lra. Qed.
+
+(* a joint that turns adds V L to the speed and A L + V (2 W + V L) to the bend *)
+Lemma tame_turn a q y M V A L W B : dot a a = 1 -> tame_value q M V A -> tame y L W B ->
+  tame (fun u => rot (turn a (q u)) (y u)) L (W + V * L) (B + A * L + V * (2 * W + V * L)).
+Proof.
+  intros N (q1 & q2 & Q) (y1 & y2 & Y).
+  set (w := fun u => vadd (y1 u) (vscale (q1 u) (cross a (y u)))).
+  set (w1 := fun u => vadd (y2 u) (vadd (vscale (q2 u) (cross a (y u))) (vscale (q1 u) (cross a (y1 u))))).
+  exists (fun u => about a (q u) (w u)), (fun u => about a (q u) (vadd (w1 u) (vscale (q1 u) (cross a (w u))))).
+  intros u I. destruct (Q u I) as (Q1 & Q2 & _ & HV & HA). destruct (Y u I) as (Y1 & Y2 & HL & HW & HB).
+  assert (Hw : norm (w u) <= W + V * L) by (apply norm_sum; [|apply norm_scaled; [|apply norm_across]]; auto).
+  split; [|split; [|split; [|split]]].
+  - eapply derives_ext; [intros v; symmetry; apply turn_about, N|apply derives_about; auto].
+  - apply derives_about; auto. apply derives_vadd; [exact Y2|apply derives_vscale; [exact Q2|apply derives_cross, Y1]].
+  - rewrite turn_about, norm_about; auto.
+  - rewrite norm_about; auto.
+  - rewrite norm_about by auto. replace (B + A * L + V * (2 * W + V * L)) with ((B + (A * L + V * W)) + V * (W + V * L)) by ring.
+    apply norm_sum; [apply norm_sum; [exact HB|apply norm_sum]|];
+      (apply norm_scaled; [assumption|apply norm_across; assumption]).
+Qed.
+(* one that slides adds V to the speed and A to the bend, and as far as it slides to the distance *)
+Lemma tame_slide a q y M V A L W B : dot a a = 1 -> tame_value q M V A -> tame y L W B ->
+  tame (fun u => vadd (y u) (vscale (q u) a)) (L + M) (W + V) (B + A).
+Proof.
+  intros N (q1 & q2 & Q) (y1 & y2 & Y).
+  assert (N1 : forall k K, Rabs k <= K -> norm (vscale k a) <= K).
+  { intros k K H. rewrite <- (Rmult_1_r K). apply norm_scaled; auto. unfold norm. rewrite N, sqrt_1. lra. }
+  assert (D : forall (k : R -> R) u k1, is_derive k u k1 -> derives (fun v => vscale (k v) a) u (vscale k1 a)).
+  { intros k u k1 K. pose proof (derives_vscale k (fun _ => a) u k1 _ K (derives_const a u)) as D.
+    replace (vscale k1 a) with (vadd (vscale k1 a) (vscale (k u) (mkV 0 0 0))); [exact D|].
+    apply V_eq; unfold vadd, vscale; simpl; ring. }
+  exists (fun u => vadd (y1 u) (vscale (q1 u) a)), (fun u => vadd (y2 u) (vscale (q2 u) a)).
+  intros u I. destruct (Q u I) as (Q1 & Q2 & HM & HV & HA). destruct (Y u I) as (Y1 & Y2 & HL & HW & HB).
+  split; [|split; [|split; [|split]]]; try (apply derives_vadd; auto); apply norm_sum; auto.
+Qed.
+Lemma tame_frame q o y L W B : 0 < qdot q q -> tame y L W B -> tame (fun u => vadd (rot q (y u)) o) (L + norm o) W B.
+Proof.
+  intros Q (y1 & y2 & Y). exists (fun u => rot q (y1 u)), (fun u => rot q (y2 u)).
+  intros u I. destruct (Y u I) as (Y1 & Y2 & HL & HW & HB). rewrite !(norm_rot q _ Q).
+  split; [|split; [|split; [|split]]]; auto.
+  - pose proof (derives_vadd _ _ _ _ _ (derives_rot q _ _ _ Y1) (derives_const o u)) as D.
+    replace (rot q (y1 u)) with (vadd (rot q (y1 u)) (mkV 0 0 0)); [exact D|].
+    apply V_eq; unfold vadd; simpl; ring.
+  - apply derives_rot, Y2.
+  - apply norm_sum; [rewrite (norm_rot q _ Q)|]; auto. apply Rle_refl.
+Qed.
+Lemma tame_ext y z L W B : (forall u, y u = z u) -> tame y L W B -> tame z L W B.
+Proof.
+  intros E (y1 & y2 & Y). exists y1, y2. intros u I. destruct (Y u I) as (Y1 & Y'). split; [|rewrite <- E; exact Y'].
+  eapply derives_ext; [exact E|exact Y1].
+Qed.
+
+(* ---- a chain on a stretch: each joint's value, with what that, its speed and its bend are at most *)
+Record link := mkLink { the : joint; value : R -> R; most : R; speed : R; bend : R }.
+Definition ok g := well_made (the g) /\ tame_value (value g) (most g) (speed g) (bend g).
+Definition chain (l : list link) u := carried (map (fun g => (the g, value g u)) l).
+
+(* The law, THE STRAY in the head of nsvcd_verify_robot.h; `out` is the part of the chain that is outside of a joint, and what is
+   carried is never farther than L from the last link's origin. `rate`: the sum of V_k L_k; `stray`: the sum that bounds |y''| *)
+Fixpoint reaches l L := match l with
+  | [] => L | g :: out => reaches out L + norm (offset (the g)) + (if slides (the g) then most g else 0) end.
+Definition arm g out L := if slides (the g) then 1 else reaches out L.
+Fixpoint rate l L := match l with [] => 0 | g :: out => rate out L + speed g * arm g out L end.
+Fixpoint stray l L := match l with
+  | [] => 0
+  | g :: out => stray out L + bend g * arm g out L +
+      (if slides (the g) then 0 else speed g * (2 * rate out L + speed g * arm g out L)) end.
+
+Lemma unit_axis_unit j : well_made j -> dot (unit_axis j) (unit_axis j) = 1.
+Proof.
+  intros [_ A]. unfold unit_axis. replace (dot _ _) with (/ norm (axis j) * / norm (axis j) * dot (axis j) (axis j))
+    by (unfold dot, vscale; simpl; ring).
+  replace (dot (axis j) (axis j)) with (norm (axis j) * norm (axis j)) by (apply sqrt_sqrt, dot_pos). field. lra.
+Qed.
+Lemma tame_chain l y L : List.Forall ok l -> norm y <= L -> tame (fun u => chain l u y) (reaches l L) (rate l L) (stray l L).
+Proof.
+  intros F H. induction F as [|g out [O T] F IH]; simpl.
+  - change (fun u => chain [] u y) with (fun _ : R => y). exists (fun _ => mkV 0 0 0), (fun _ => mkV 0 0 0). intros u _.
+    assert (Z : norm (mkV 0 0 0) <= 0).
+    { unfold norm, dot. simpl. replace (0 * 0 + 0 * 0 + 0 * 0) with 0 by ring. rewrite sqrt_0. lra. }
+    split; [|split; [|split; [|split]]]; auto; exact (derives_const _ u).
+  - pose proof (unit_axis_unit _ O) as U. destruct O as [O _]. unfold arm, chain, carried, carry. simpl.
+    destruct (slides (the g)).
+    + pose proof (tame_frame _ (offset (the g)) _ _ _ _ O (tame_slide _ _ _ _ _ _ _ _ _ U T IH)) as X.
+      rewrite !Rmult_1_r, Rplus_0_r. rewrite Rplus_assoc, (Rplus_comm (norm _)), <- Rplus_assoc. exact X.
+    + pose proof (tame_frame _ (offset (the g)) _ _ _ _ O (tame_turn _ _ _ _ _ _ _ _ _ U T IH)) as X.
+      rewrite Rplus_0_r. exact X.
+Qed.
+
+(* ---- a curve whose bend is B at most leaves its chord by an eighth of that *)
+Lemma tame_above y L W B n u : tame y L W B -> 0 <= u <= 1 ->
+  (1 - u) * dot n (y 0) + u * dot n (y 1) - norm n * (B / 8) <= dot n (y u).
+Proof.
+  intros (y1 & y2 & Y) I. set (f := fun v => dot n (y v)). set (f1 := fun v => dot n (y1 v)). set (K := norm n * B).
+  assert (P : 0 <= K / 2 * u * (1 - u) + (f u - ((1 - u) * f 0 + u * f 1))).
+  { apply (concave_above (fun v => K / 2 * v * (1 - v) + (f v - ((1 - v) * f 0 + v * f 1)))
+      (fun v => K / 2 * (1 - 2 * v) + (f1 v - (f 1 - f 0))) (fun v => dot n (y2 v) - K) 0 1); auto; try (field; fail).
+    - intros v J. destruct (Y v J) as (Y1 & _). pose proof (derives_dot n _ _ _ Y1) as D. fold f in D.
+      assert (D1 : Derive (fun v => f v) v = f1 v) by (apply is_derive_unique, D).
+      apply is_derive_Reals. generalize (f 0) (f 1). intros. auto_derive; [exists (f1 v); exact D|rewrite D1; field].
+    - intros v J. destruct (Y v J) as (_ & Y2 & _). pose proof (derives_dot n _ _ _ Y2) as D. fold f1 in D.
+      assert (D1 : Derive (fun v => f1 v) v = dot n (y2 v)) by (apply is_derive_unique, D).
+      apply is_derive_Reals. generalize (f 0) (f 1). intros. auto_derive; [eexists; exact D|rewrite D1; field].
+    - intros v J. destruct (Y v J) as (_ & _ & _ & _ & Y2). pose proof (cauchy n (y2 v)) as C.
+      pose proof (Rle_abs (dot n (y2 v))). pose proof (norm_pos n). unfold K. nra. }
+  assert (0 <= K).
+  { destruct (Y u I) as (_ & _ & _ & _ & Y2). pose proof (norm_pos (y2 u)). apply Rmult_le_pos; [apply norm_pos|lra]. }
+  unfold f in P. replace (norm n * (B / 8)) with (K / 8) by (unfold K; field). pose proof (pow2_ge_0 (2 * u - 1)). nra.
+Qed.
+Lemma tame_chord y L W B n u : tame y L W B -> 0 <= u <= 1 ->
+  Rabs (dot n (y u) - ((1 - u) * dot n (y 0) + u * dot n (y 1))) <= norm n * (B / 8).
+Proof.
+  intros T I. pose proof (tame_above y L W B n u T I) as A. pose proof (tame_above y L W B (vscale (-1) n) u T I) as M.
+  assert (D : forall v, dot (vscale (-1) n) v = - dot n v) by (intros; unfold dot, vscale; simpl; ring).
+  assert (N : norm (vscale (-1) n) = norm n) by (unfold norm; f_equal; unfold dot, vscale; simpl; ring).
+  rewrite !D, N in M. apply Rabs_le. lra.
+Qed.
+
+(* ---- THE LAW. A point x of a part, which is on the last link: scaled by s, turned by q, put at p. `u`: the share of the stretch *)
+Definition on_link s q p x := vadd (vscale s (rot q x)) p.
+Lemma on_link_norm s q p x : 0 <= s -> 0 < qdot q q -> norm (on_link s q p x) <= norm p + s * norm x.
+Proof.
+  intros S Q. rewrite Rplus_comm. apply norm_sum; [|apply Rle_refl]. rewrite norm_vscale, norm_rot by auto. apply Rle_refl.
+Qed.
+Theorem chain_leaves_chord l s q p x n u : List.Forall ok l -> 0 <= s -> 0 < qdot q q -> 0 <= u <= 1 ->
+  let f v := dot n (chain l v (on_link s q p x)) in
+  Rabs (f u - ((1 - u) * f 0 + u * f 1)) <= norm n / 8 * stray l (norm p + s * norm x).
+Proof.
+  intros F S Q I f. replace (norm n / 8 * _) with (norm n * (stray l (norm p + s * norm x) / 8)) by field.
+  exact (tame_chord _ _ _ _ n u (tame_chain l _ _ F (on_link_norm s q p x S Q)) I).
+Qed.
+
+(* ---- the C's loop, verify__part_deviation, from the part's link towards the base: one round of it, and all. Metres, and what
+   r, the largest s |x|, is multiplied by. Its 0.1250001 is an eighth, and a bit *)
+Definition eighth := 1250001 / 10000000.
+Record sums := mkSums { reach : R; outer0 : R; outer1 : R; deviation0 : R; deviation1 : R }.
+Definition round g z :=
+  let arm0 := if slides (the g) then 1 else reach z in
+  let arm1 := if slides (the g) then 0 else 1 in
+  mkSums (reach z + (norm (offset (the g)) + (if slides (the g) then most g else 0)))
+    (outer0 z + speed g * arm0) (outer1 z + speed g * arm1)
+    (deviation0 z + eighth * bend g * arm0 + (if slides (the g) then 0 else eighth * speed g * (2 * outer0 z + speed g * arm0)))
+    (deviation1 z + eighth * bend g * arm1 + (if slides (the g) then 0 else eighth * speed g * (2 * outer1 z + speed g * arm1))).
+Definition loop l p := fold_right round (mkSums (norm p) 0 0 0 0) l.
+Lemma loop_is_law l p r : reaches l (norm p + r) = reach (loop l p) + r /\
+  rate l (norm p + r) = outer0 (loop l p) + outer1 (loop l p) * r /\
+  eighth * stray l (norm p + r) = deviation0 (loop l p) + deviation1 (loop l p) * r.
+Proof.
+  induction l as [|g out (A & B & C)]; simpl; [repeat split; ring|].
+  unfold arm. destruct (slides (the g)); rewrite A, B, !Rmult_plus_distr_l, C; repeat split; ring.
+Qed.
