@@ -402,3 +402,148 @@ Proof.
 Qed.
 Lemma bez_bounds n p x : 0 <= x <= 1 -> Rabs (bez n p x) <= largest n p.
 Proof. intros I. apply bez_within; [exact I|apply largest_is]. Qed.
+
+(* ---- THE MOTION. On a piece, from time b to e, joint values are Bezier curves of one degree n. A part: its joints with their
+   points, the one at its base first; its scale and its pose on the last link (nsvcd_verify_part, verify__part_place) *)
+Record part := mkPart { joints : list (joint * (nat -> R)); grown : R; posed : quat; put : V }.
+Definition fit m := List.Forall (fun g => well_made (fst g)) (joints m) /\ 0 <= grown m /\ 0 < qdot (posed m) (posed m).
+Definition where_is n b e m t x := carried (map (fun g => (fst g, bez n (snd g) ((t - b) / (e - b)))) (joints m))
+  (on_link (grown m) (posed m) (put m) x).
+
+(* as verify__curve and verify__part_deviation have it from t0 to t1: the points of that part of each curve, and what they say *)
+Definition measured n b e t0 t1 (g : joint * (nat -> R)) :=
+  let to := (t1 - b) / (e - b) in let from := (t0 - b) / (e - b) / to in
+  let p := cut n from to (snd g) in
+  mkLink (fst g) (bez n p) (largest n p) (INR n * largest (pred n) (diff p))
+    (INR n * INR (pred n) * largest (pred (pred n)) (diff (diff p))).
+Definition strays n b e t0 t1 m r :=
+  let z := loop (map (measured n b e t0 t1) (joints m)) (put m) in deviation0 z + deviation1 z * r.
+
+Lemma measured_ok n b e t0 t1 g : well_made (fst g) -> ok (measured n b e t0 t1 g).
+Proof.
+  intros W. split; [exact W|]. unfold measured. cbv zeta. cbn [value most speed bend].
+  set (p := cut _ _ _ _). clearbody p. pose proof (pos_INR n) as N. pose proof (pos_INR (pred n)) as N'.
+  exists (fun u => INR n * bez (pred n) (diff p) u), (fun u => INR n * (INR (pred n) * bez (pred (pred n)) (diff (diff p)) u)).
+  intros u I. split; [apply bez_derives|]. split; [apply is_derive_scal, bez_derives|]. split; [apply bez_bounds, I|].
+  rewrite !Rabs_mult, (Rabs_pos_eq (INR n)), (Rabs_pos_eq (INR (pred n))) by auto. rewrite <- Rmult_assoc.
+  split; apply Rmult_le_compat_l; auto; try apply bez_bounds, I. apply Rmult_le_pos; auto.
+Qed.
+Lemma measured_all n b e t0 t1 l : List.Forall (fun g => well_made (fst g)) l -> List.Forall ok (map (measured n b e t0 t1) l).
+Proof.
+  intros F. apply Forall_forall. intros g H. apply in_map_iff in H. destruct H as (h & <- & H).
+  apply measured_ok. rewrite Forall_forall in F. apply F, H.
+Qed.
+Lemma share_within t0 t1 t : t0 < t1 -> t0 <= t <= t1 -> 0 <= (t - t0) / (t1 - t0) <= 1.
+Proof.
+  intros L T. split; [apply Rmult_le_pos; [lra|apply Rlt_le, Rinv_0_lt_compat; lra]|].
+  apply Rmult_le_reg_r with (t1 - t0); [lra|]. unfold Rdiv. rewrite Rmult_assoc, Rinv_l by lra. lra.
+Qed.
+(* at a share of the stretch, a measured chain is where the part is *)
+Lemma measured_is n b e t0 t1 m t x : b < e -> b <= t0 < t1 ->
+  chain (map (measured n b e t0 t1) (joints m)) ((t - t0) / (t1 - t0)) (on_link (grown m) (posed m) (put m) x) =
+  where_is n b e m t x.
+Proof.
+  intros E I. unfold chain, where_is. rewrite map_map. f_equal. apply map_ext. intros g.
+  unfold measured. cbv zeta. cbn [the value]. f_equal. rewrite cut_is. f_equal. field. lra.
+Qed.
+
+(* A point of a part leaves its chord from t0 to t1, which are in one piece, by `strays` at most along a direction of length 1 *)
+Theorem motion_leaves_chord n b e m t0 t1 t x r v : fit m -> norm (vscale (grown m) x) <= r ->
+  b <= t0 < t1 -> t1 <= e -> t0 <= t <= t1 ->
+  let f w := dot v (where_is n b e m w x) in
+  Rabs (f t - ((t1 - t) * f t0 + (t - t0) * f t1) / (t1 - t0)) <= norm v * strays n b e t0 t1 m r.
+Proof.
+  intros (F & G & Q) R I J T f. assert (E : b < e) by lra.
+  set (l := map (measured n b e t0 t1) (joints m)). rewrite norm_vscale in R by auto.
+  assert (O : List.Forall ok l) by (apply measured_all, F).
+  pose proof (share_within t0 t1 t ltac:(lra) T) as U.
+  assert (Y : norm (on_link (grown m) (posed m) (put m) x) <= norm (put m) + r)
+    by (pose proof (on_link_norm (grown m) (posed m) (put m) x G Q); lra).
+  pose proof (tame_chain l _ _ O Y) as Tm. pose proof (tame_chord _ _ _ _ v _ Tm U) as C.
+  pose proof (measured_is n b e t0 t1 m t0 x E I) as M0. pose proof (measured_is n b e t0 t1 m t1 x E I) as M1.
+  replace ((t0 - t0) / (t1 - t0)) with 0 in M0 by (field; lra). replace ((t1 - t0) / (t1 - t0)) with 1 in M1 by (field; lra).
+  cbv beta in C. unfold l in C. rewrite measured_is, M0, M1 in C by auto. fold l (f t) (f t0) (f t1) in C.
+  replace (((t1 - t) * f t0 + (t - t0) * f t1) / (t1 - t0)) with
+    ((1 - (t - t0) / (t1 - t0)) * f t0 + (t - t0) / (t1 - t0) * f t1) by (field; lra).
+  eapply Rle_trans; [exact C|]. apply Rmult_le_compat_l; [apply norm_pos|].
+  unfold strays. fold l. cbv zeta. destruct (loop_is_law l (put m) r) as (_ & _ & <-).
+  assert (S : 0 <= stray l (norm (put m) + r)).
+  { destruct Tm as (y1 & y2 & Y'). destruct (Y' 0 ltac:(lra)) as (_ & _ & _ & _ & B).
+    pose proof (norm_pos (y2 0)). lra. }
+  unfold eighth. lra.
+Qed.
+
+(* ---- nsvcd_verify's step for two parts of one motion, seen from one base: a plane of normal v that separates a point of each at
+   two instants of a piece, by more than the clearance and both deviations, separates them at all times between *)
+Theorem parts_apart n b e ma mb t0 t1 x y rx ry v c : fit ma -> fit mb ->
+  norm (vscale (grown ma) x) <= rx -> norm (vscale (grown mb) y) <= ry -> b <= t0 < t1 -> t1 <= e ->
+  let least := norm v * c + (norm v * strays n b e t0 t1 ma rx + norm v * strays n b e t0 t1 mb ry) in
+  least < dot v (vsub (where_is n b e ma t0 x) (where_is n b e mb t0 y)) ->
+  least < dot v (vsub (where_is n b e ma t1 x) (where_is n b e mb t1 y)) ->
+  forall t, t0 <= t <= t1 -> c < norm (vsub (where_is n b e ma t x) (where_is n b e mb t y)).
+Proof.
+  intros Fa Fb Rx Ry I J least Hs He t T.
+  assert (Sub : forall p q, dot v (vsub p q) = dot v p - dot v q) by (intros; unfold dot, vsub; simpl; ring).
+  pose proof (motion_leaves_chord n b e ma t0 t1 t x rx v Fa Rx I J T) as A.
+  pose proof (motion_leaves_chord n b e mb t0 t1 t y ry v Fb Ry I J T) as B.
+  cbv beta zeta in A, B. apply Rabs_le_between in A. apply Rabs_le_between in B.
+  assert (Main : norm v * c < dot v (vsub (where_is n b e ma t x) (where_is n b e mb t y))).
+  { rewrite Sub in *. unfold least in *.
+    apply (chords_apart (fun w => dot v (where_is n b e ma w x)) (fun w => dot v (where_is n b e mb w y)) t0 t1 t
+      (norm v * strays n b e t0 t1 ma rx) (norm v * strays n b e t0 t1 mb ry)); auto; lra. }
+  pose proof (cauchy v (vsub (where_is n b e ma t x) (where_is n b e mb t y))) as X.
+  pose proof (Rle_abs (dot v (vsub (where_is n b e ma t x) (where_is n b e mb t y)))). pose proof (norm_pos v).
+  set (d := norm (vsub _ _)) in *. nra.
+Qed.
+
+(* ---- verify__keeps: an axis of a part only turns. It leaves its chord by deviation[1], of which the rest is no part *)
+Definition aim j q a := rot (frame j) (if slides j then a else rot (turn (unit_axis j) q) a).
+Definition aimed (l : list (joint * R)) a := fold_right (fun g a => aim (fst g) (snd g) a) a l.
+Definition points_to n b e m t a := aimed (map (fun g => (fst g, bez n (snd g) ((t - b) / (e - b)))) (joints m)) (rot (posed m) a).
+Lemma carried_aimed l x y : vsub (carried l x) (carried l y) = aimed l (vsub x y).
+Proof.
+  assert (S : forall q v w, vsub (rot q v) (rot q w) = rot q (vsub v w))
+    by (intros; unfold rot; apply V_eq; unfold vsub, vscale, turned; simpl; ring).
+  assert (O : forall v w o, vsub (vadd v o) (vadd w o) = vsub v w)
+    by (intros; apply V_eq; unfold vsub, vadd; simpl; ring).
+  induction l as [|[j q] l IH]; [reflexivity|]. simpl. rewrite <- IH. unfold carry, aim. rewrite O, S. f_equal.
+  destruct (slides j); [apply O|apply S].
+Qed.
+Lemma tame_aimed l p a : List.Forall ok l -> norm a <= 1 -> exists B, eighth * B = deviation1 (loop l p) /\
+  tame (fun u => aimed (map (fun g => (the g, value g u)) l) a) 1 (outer1 (loop l p)) B.
+Proof.
+  assert (Z : norm (mkV 0 0 0) = 0).
+  { unfold norm, dot. simpl. replace (0 * 0 + 0 * 0 + 0 * 0) with 0 by ring. apply sqrt_0. }
+  assert (F0 : forall q y W B, 0 < qdot q q -> tame y 1 W B -> tame (fun u => rot q (y u)) 1 W B).
+  { intros q y W B Q T. pose proof (tame_frame q (mkV 0 0 0) y 1 W B Q T) as X. rewrite Z, Rplus_0_r in X.
+    eapply tame_ext; [|exact X]. intros u. apply V_eq; unfold vadd; simpl; ring. }
+  intros F H. induction F as [|g out [O T] F (B & E & IH)]; simpl.
+  - exists 0. split; [ring|]. exists (fun _ => mkV 0 0 0), (fun _ => mkV 0 0 0). intros u _. rewrite Z.
+    split; [|split; [|split; [|split]]]; try lra; exact (derives_const _ u).
+  - pose proof (unit_axis_unit _ O) as U. destruct O as [O _]. unfold aim. destruct (slides (the g)).
+    + exists B. split; [rewrite E; ring|]. rewrite Rmult_0_r, Rplus_0_r. exact (F0 _ _ _ _ O IH).
+    + exists (B + bend g * 1 + speed g * (2 * outer1 (loop out p) + speed g * 1)). split.
+      * rewrite !Rmult_plus_distr_l, E. ring.
+      * exact (F0 _ _ _ _ O (tame_turn _ _ _ _ _ _ _ _ _ U T IH)).
+Qed.
+(* so where it is within an angle of a direction v at two instants, by deviation[1] and more, it is so at all times between *)
+Theorem axis_keeps n b e m t0 t1 t a v least : fit m -> norm a <= 1 -> norm v <= 1 ->
+  b <= t0 < t1 -> t1 <= e -> t0 <= t <= t1 ->
+  let most1 := deviation1 (loop (map (measured n b e t0 t1) (joints m)) (put m)) in
+  least + most1 <= dot v (points_to n b e m t0 a) -> least + most1 <= dot v (points_to n b e m t1 a) ->
+  least <= dot v (points_to n b e m t a).
+Proof.
+  intros (F & _ & Q) Ha Hv I J T most1 H0 H1. assert (E : b < e) by lra. set (l := map _ (joints m)) in most1.
+  assert (O : List.Forall ok l) by (apply measured_all, F).
+  destruct (tame_aimed l (put m) (rot (posed m) a) O) as (B & EB & Tm); [rewrite norm_rot; auto|].
+  assert (M : forall w, aimed (map (fun g => (the g, value g ((w - t0) / (t1 - t0)))) l) (rot (posed m) a) = points_to n b e m w a).
+  { intros w. unfold points_to, l. rewrite map_map. f_equal. apply map_ext. intros g.
+    unfold measured. cbv zeta. cbn [the value]. f_equal. rewrite cut_is. f_equal. field. lra. }
+  pose proof (tame_above _ _ _ _ v _ Tm (share_within t0 t1 t ltac:(lra) T)) as C. cbv beta in C.
+  pose proof (M t0) as M0. pose proof (M t1) as M1.
+  replace ((t0 - t0) / (t1 - t0)) with 0 in M0 by (field; lra). replace ((t1 - t0) / (t1 - t0)) with 1 in M1 by (field; lra).
+  rewrite M, M0, M1 in C. pose proof (share_within t0 t1 t ltac:(lra) T) as U. set (u := (t - t0) / (t1 - t0)) in *.
+  assert (S : 0 <= B).
+  { destruct Tm as (y1 & y2 & Y'). destruct (Y' 0 ltac:(lra)) as (_ & _ & _ & _ & X). pose proof (norm_pos (y2 0)). lra. }
+  fold most1 in EB. pose proof (norm_pos v). assert (norm v * (B / 8) <= most1) by (rewrite <- EB; unfold eighth; nra). nra.
+Qed.
