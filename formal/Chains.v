@@ -1,8 +1,8 @@
 (* Chains.v - robots: what a chain of joints carries, how far that leaves its chord, and that a plane at two instants separates
    two parts at all times between. It is the law of nsvcd_verify_robot.h, over the reals. Nothing here reads a plan's bytes. *)
-From Coq Require Import Reals Lra Psatz List Lia.
+From Coq Require Import Reals Lra List.
 From Coquelicot Require Import Coquelicot.
-From Svcd Require Export Geometry.
+From Svcd Require Export Geometry Bezier.
 Import ListNotations.
 Local Open Scope R_scope.
 
@@ -90,6 +90,8 @@ Qed.
 
 (* ---- a turn, as Rodrigues has it; its derivative is the turn of what y' and q' a x y are together *)
 Definition about a q y := vadd (vscale (cos q) y) (vadd (vscale (sin q) (cross a y)) (vscale ((1 - cos q) * dot a y) a)).
+Lemma by_unit a p q r : dot a a = 1 -> p - q = r * (dot a a - 1) -> p = q.
+Proof. intros A. rewrite A. lra. Qed.
 Lemma turn_unit a q : dot a a = 1 -> qdot (turn a q) (turn a q) = 1.
 Proof.
   intros A. pose proof (sin2_cos2 (q / 2)) as C. unfold Rsqr in C.
@@ -101,11 +103,10 @@ Proof.
   intros A. rewrite rot_unit by (apply turn_unit, A). pose proof (sin2_cos2 (q / 2)) as C. unfold Rsqr in C.
   unfold about. replace q with (2 * (q / 2)) at 2 3 4 by field. rewrite cos_2a, sin_2a.
   unfold turn. set (c := cos _) in *. set (s := sin _) in *.
-  assert (D : 1 - (c * c - s * s) = 2 * (s * s)) by lra. rewrite D. unfold dot in A.
-  destruct a as [x y' z]. simpl in A.
-  assert (E : forall p q r : R, p - q = r * (x * x + y' * y' + z * z - 1) -> p = q) by (intros p p' r H; rewrite A in H; lra).
+  assert (D : 1 - (c * c - s * s) = 2 * (s * s)) by lra. rewrite D.
   apply V_eq; unfold turned, vadd, vscale, cross, dot; simpl;
-    [apply (E _ _ (- (s * s) * vx y))|apply (E _ _ (- (s * s) * vy y))|apply (E _ _ (- (s * s) * vz y))]; ring.
+    [apply (by_unit a _ _ (- (s * s) * vx y))|apply (by_unit a _ _ (- (s * s) * vy y))|apply (by_unit a _ _ (- (s * s) * vz y))];
+    auto; unfold dot; ring.
 Qed.
 Lemma norm_rot q v : 0 < qdot q q -> norm (rot q v) = norm v.
 Proof.
@@ -127,18 +128,26 @@ Proof.
     (derives_vscale _ _ _ _ _ S (derives_cross a _ _ _ Y)) (derives_vscale _ _ _ _ _
       (is_derive_mult _ _ _ _ _ C' (derives_dot a _ _ _ Y) Rmult_comm) (derives_const a u)))) as D.
   match type of D with derives _ _ ?e => replace (about a (q u) _) with e; [exact D|] end.
-  change plus with Rplus. change mult with Rmult. unfold dot in A. destruct a as [x y' z]. simpl in A.
-  assert (E : forall p q r : R, p - q = r * (x * x + y' * y' + z * z - 1) -> p = q) by (intros p p' r H; rewrite A in H; lra).
+  change plus with Rplus. change mult with Rmult.
   unfold about. set (c := cos _). set (s := sin _).
   apply V_eq; unfold vadd, vscale, cross, dot, plus, mult; simpl;
-    [apply (E _ _ (q1 * s * vx (y u)))|apply (E _ _ (q1 * s * vy (y u)))|apply (E _ _ (q1 * s * vz (y u)))]; ring.
+    [apply (by_unit a _ _ (q1 * s * vx (y u)))|apply (by_unit a _ _ (q1 * s * vy (y u)))|apply (by_unit a _ _ (q1 * s * vz (y u)))];
+    auto; unfold dot; ring.
 Qed.
+
+Lemma norm_0 : norm (mkV 0 0 0) = 0.
+Proof. unfold norm, dot. simpl. replace (0 * 0 + 0 * 0 + 0 * 0) with 0 by ring. apply sqrt_0. Qed.
 
 (* ---- a curve on a stretch, by its share u from 0 to 1: never farther than L from 0, its speed W at most, its bend B *)
 Definition tame (y : R -> V) L W B := exists y1 y2, forall u, 0 <= u <= 1 ->
   derives y u (y1 u) /\ derives y1 u (y2 u) /\ norm (y u) <= L /\ norm (y1 u) <= W /\ norm (y2 u) <= B.
 Definition tame_value (q : R -> R) M V A := exists q1 q2, forall u, 0 <= u <= 1 ->
   is_derive q u (q1 u) /\ is_derive q1 u (q2 u) /\ Rabs (q u) <= M /\ Rabs (q1 u) <= V /\ Rabs (q2 u) <= A.
+Lemma tame_const y L : norm y <= L -> tame (fun _ => y) L 0 0.
+Proof.
+  intros H. exists (fun _ => mkV 0 0 0), (fun _ => mkV 0 0 0). intros u _. rewrite norm_0.
+  split; [|split; [|split; [|split]]]; try lra; exact (derives_const _ u).
+Qed.
 Lemma norm_scaled k v K N : Rabs k <= K -> norm v <= N -> norm (vscale k v) <= K * N.
 Proof.
   intros A B. replace (norm (vscale k v)) with (Rabs k * norm v).
@@ -227,10 +236,7 @@ Qed.
 Lemma tame_chain l y L : List.Forall ok l -> norm y <= L -> tame (fun u => chain l u y) (reaches l L) (rate l L) (stray l L).
 Proof.
   intros F H. induction F as [|g out [O T] F IH]; simpl.
-  - change (fun u => chain [] u y) with (fun _ : R => y). exists (fun _ => mkV 0 0 0), (fun _ => mkV 0 0 0). intros u _.
-    assert (Z : norm (mkV 0 0 0) <= 0).
-    { unfold norm, dot. simpl. replace (0 * 0 + 0 * 0 + 0 * 0) with 0 by ring. rewrite sqrt_0. lra. }
-    split; [|split; [|split; [|split]]]; auto; exact (derives_const _ u).
+  - exact (tame_const y L H).
   - pose proof (unit_axis_unit _ O) as U. destruct O as [O _]. unfold arm, chain, carried, carry. simpl.
     destruct (slides (the g)).
     + pose proof (tame_frame _ (offset (the g)) _ _ _ _ O (tame_slide _ _ _ _ _ _ _ _ _ U T IH)) as X.
@@ -302,107 +308,6 @@ Proof.
   unfold arm. destruct (slides (the g)); rewrite A, B, !Rmult_plus_distr_l, C; repeat split; ring.
 Qed.
 
-(* ---- Bezier curves of any degree n by their points 0 to n, as de Casteljau has them *)
-Fixpoint bez n (p : nat -> R) x := match n with
-  | O => p O | S m => bez m (fun i => (1 - x) * p i + x * p (S i)) x end.
-Definition diff (p : nat -> R) i := p (S i) - p i.
-Lemma bez_ext n x : forall p q, (forall i, (i <= n)%nat -> p i = q i) -> bez n p x = bez n q x.
-Proof.
-  induction n as [|n IH]; intros p q E; simpl; [apply E; lia|]. apply IH. intros i I. rewrite !E by lia. reflexivity.
-Qed.
-Lemma bez_linear n x a b : forall p q, bez n (fun i => a * p i + b * q i) x = a * bez n p x + b * bez n q x.
-Proof.
-  induction n as [|n IH]; intros p q; simpl; [reflexivity|]. rewrite <- IH. apply bez_ext. intros. ring.
-Qed.
-Lemma bez_outer n p x : bez (S n) p x = (1 - x) * bez n p x + x * bez n (fun i => p (S i)) x.
-Proof. exact (bez_linear n x (1 - x) x p (fun i => p (S i))). Qed.
-
-(* it stays within what bounds its points; and its derivative is the curve of their differences, times the degree *)
-Lemma bez_within n x M : 0 <= x <= 1 -> forall p, (forall i, (i <= n)%nat -> Rabs (p i) <= M) -> Rabs (bez n p x) <= M.
-Proof.
-  intros I. induction n as [|n IH]; intros p H; simpl; [apply H; lia|]. apply IH. intros i J.
-  pose proof (H i ltac:(lia)) as A. pose proof (H (S i) ltac:(lia)) as B.
-  apply Rabs_le_between in A. apply Rabs_le_between in B. apply Rabs_le. nra.
-Qed.
-Lemma bez_derives n x : forall p, is_derive (bez n p) x (INR n * bez (pred n) (diff p) x).
-Proof.
-  induction n as [|n IH]; intros p.
-  - simpl. rewrite Rmult_0_l. apply (is_derive_const (K := R_AbsRing) (V := R_NormedModule)).
-  - eapply is_derive_ext; [intros; symmetry; apply bez_outer|].
-    pose proof (IH p) as A. pose proof (IH (fun i => p (S i))) as B.
-    set (f := bez n p) in *. set (g := bez n (fun i => p (S i))) in *.
-    assert (DA : Derive (fun v => f v) x = INR n * bez (pred n) (diff p) x) by (apply is_derive_unique, A).
-    assert (DB : Derive (fun v => g v) x = INR n * bez (pred n) (diff (fun i => p (S i))) x) by (apply is_derive_unique, B).
-    auto_derive; [split; [eexists; exact A|split; [eexists; exact B|exact I]]|]. rewrite DA, DB, S_INR. simpl pred.
-    assert (E : bez n (diff p) x = g x - f x).
-    { unfold f, g. transitivity (1 * bez n (fun i => p (S i)) x + -1 * bez n p x); [|ring].
-      rewrite <- bez_linear. apply bez_ext. intros. unfold diff. ring. }
-    assert (E' : INR n * bez n (diff p) x = INR n *
-      ((1 - x) * bez (pred n) (diff p) x + x * bez (pred n) (diff (fun i => p (S i))) x)).
-    { destruct n as [|n]; [simpl; ring|]. f_equal. apply bez_outer. }
-    replace ((INR n + 1) * bez n (diff p) x) with (INR n * bez n (diff p) x + bez n (diff p) x) by ring.
-    rewrite E', E. ring.
-Qed.
-
-(* ---- verify__curve: cutting in place, level by level. After the first loop point i is the curve of points 0 to i at the
-   cut, after the second that of points i to n *)
-Fixpoint left_loop x l (p : nat -> R) i := match l with
-  | O => p i
-  | S m => if Nat.leb l i then (1 - x) * left_loop x m p (pred i) + x * left_loop x m p i else left_loop x m p i end.
-Fixpoint right_loop n x l (p : nat -> R) i := match l with
-  | O => p i
-  | S m => if Nat.leb (i + l) n then (1 - x) * right_loop n x m p i + x * right_loop n x m p (S i) else right_loop n x m p i end.
-Lemma left_loop_is x l p : forall i, left_loop x l p i = bez (Nat.min i l) (fun k => p (i - Nat.min i l + k)%nat) x.
-Proof.
-  induction l as [|l IH]; intros i.
-  - rewrite Nat.min_0_r. simpl. f_equal. lia.
-  - cbn [left_loop]. destruct (Nat.leb_spec (S l) i) as [H|H]; rewrite !IH.
-    + replace (Nat.min i (S l)) with (S l) by lia. replace (Nat.min (pred i) l) with l by lia.
-      replace (Nat.min i l) with l by lia. rewrite bez_outer. f_equal; f_equal; apply bez_ext; intros; f_equal; lia.
-    + replace (Nat.min i (S l)) with i by lia. replace (Nat.min i l) with i by lia. reflexivity.
-Qed.
-Lemma right_loop_is n x l p : forall i, (i <= n)%nat ->
-  right_loop n x l p i = bez (Nat.min l (n - i)) (fun k => p (i + k)%nat) x.
-Proof.
-  induction l as [|l IH]; intros i I.
-  - simpl. f_equal. lia.
-  - cbn [right_loop]. destruct (Nat.leb_spec (i + S l) n) as [H|H].
-    + rewrite !IH by lia. replace (Nat.min (S l) (n - i)) with (S l) by lia. replace (Nat.min l (n - i)) with l by lia.
-      replace (Nat.min l (n - S i)) with l by lia. rewrite bez_outer. f_equal. f_equal. apply bez_ext. intros; f_equal; lia.
-    + rewrite IH by lia. f_equal. lia.
-Qed.
-Lemma cut_left x t n : forall p, bez n (fun i => bez i p t) x = bez n p (x * t).
-Proof.
-  induction n as [|n IH]; intros p; [reflexivity|]. rewrite !bez_outer, IH. simpl. rewrite IH, bez_linear. ring.
-Qed.
-Lemma cut_right x f n : forall p, bez n (fun i => bez (n - i) (fun k => p (i + k)%nat) f) x = bez n p (f + (1 - f) * x).
-Proof.
-  induction n as [|n IH]; intros p; [reflexivity|].
-  transitivity ((1 - x) * bez n (fun i => (1 - f) * p i + f * p (S i)) (f + (1 - f) * x) +
-    x * bez n (fun i => p (S i)) (f + (1 - f) * x)).
-  - rewrite <- (IH (fun i => (1 - f) * p i + f * p (S i))), <- (IH (fun i => p (S i))), bez_outer. f_equal. f_equal.
-    apply bez_ext. intros i I. replace (S n - i)%nat with (S (n - i)) by lia. simpl. apply bez_ext. intros k _.
-    f_equal. f_equal. f_equal. lia.
-  - rewrite bez_linear, bez_outer. ring.
-Qed.
-Definition cut n from to p := right_loop n from n (left_loop to n p).
-Theorem cut_is n from to p x : bez n (cut n from to p) x = bez n p ((from + (1 - from) * x) * to).
-Proof.
-  rewrite <- cut_left, <- cut_right. apply bez_ext. intros i I. unfold cut. rewrite right_loop_is by auto.
-  replace (Nat.min n (n - i)) with (n - i)%nat by lia. apply bez_ext. intros k K. rewrite left_loop_is.
-  replace (Nat.min (i + k) n) with (i + k)%nat by lia. apply bez_ext. intros; f_equal; lia.
-Qed.
-
-(* verify__part_deviation's most, speed and bend of the points of a curve of degree n *)
-Fixpoint largest n (p : nat -> R) := match n with O => Rabs (p O) | S m => Rmax (largest m p) (Rabs (p n)) end.
-Lemma largest_is n p : forall i, (i <= n)%nat -> Rabs (p i) <= largest n p.
-Proof.
-  induction n as [|n IH]; intros i I; simpl; [replace i with O by lia; apply Rle_refl|].
-  destruct (Nat.eq_dec i (S n)) as [->|]; [apply Rmax_r|]. eapply Rle_trans; [apply IH; lia|apply Rmax_l].
-Qed.
-Lemma bez_bounds n p x : 0 <= x <= 1 -> Rabs (bez n p x) <= largest n p.
-Proof. intros I. apply bez_within; [exact I|apply largest_is]. Qed.
-
 (* ---- THE MOTION. On a piece, from time b to e, joint values are Bezier curves of one degree n. A part: its joints with their
    points, the one at its base first; its scale and its pose on the last link (nsvcd_verify_part, verify__part_place) *)
 Record part := mkPart { joints : list (joint * (nat -> R)); grown : R; posed : quat; put : V }.
@@ -473,6 +378,18 @@ Proof.
   unfold eighth. lra.
 Qed.
 
+(* and an arm of 1 m that turns steadily from -h to h: its tip leaves its chord by 1 - cos h, and the law says h^2 / 2, and a bit *)
+Example arm_strays h : 0 <= h -> strays 1 0 1 0 1 (mkPart [(upright origin0, fun i => match i with O => - h | _ => h end)]
+  1 still (mkV 1 0 0)) 0 = eighth * (2 * h) ^ 2.
+Proof.
+  intros H. assert (S : norm (mkV 1 0 0) = 1).
+  { unfold norm, dot. simpl. replace (1 * 1 + 0 * 0 + 0 * 0) with 1 by ring. apply sqrt_1. }
+  unfold strays, loop, measured, round, cut, diff. simpl. rewrite S.
+  replace ((1 - 0) / (1 - 0)) with 1 by field. replace ((0 - 0) / (1 - 0) / 1) with 0 by field.
+  replace ((1 - 1) * - h + 1 * h - ((1 - 0) * - h + 0 * ((1 - 1) * - h + 1 * h))) with (2 * h) by ring.
+  rewrite (Rabs_pos_eq (2 * h)) by lra. ring.
+Qed.
+
 (* ---- nsvcd_verify's step for two parts of one motion, seen from one base: a plane of normal v that separates a point of each at
    two instants of a piece, by more than the clearance and both deviations, separates them at all times between *)
 Theorem parts_apart n b e ma mb t0 t1 x y rx ry v c : fit ma -> fit mb ->
@@ -512,14 +429,11 @@ Qed.
 Lemma tame_aimed l p a : List.Forall ok l -> norm a <= 1 -> exists B, eighth * B = deviation1 (loop l p) /\
   tame (fun u => aimed (map (fun g => (the g, value g u)) l) a) 1 (outer1 (loop l p)) B.
 Proof.
-  assert (Z : norm (mkV 0 0 0) = 0).
-  { unfold norm, dot. simpl. replace (0 * 0 + 0 * 0 + 0 * 0) with 0 by ring. apply sqrt_0. }
   assert (F0 : forall q y W B, 0 < qdot q q -> tame y 1 W B -> tame (fun u => rot q (y u)) 1 W B).
-  { intros q y W B Q T. pose proof (tame_frame q (mkV 0 0 0) y 1 W B Q T) as X. rewrite Z, Rplus_0_r in X.
+  { intros q y W B Q T. pose proof (tame_frame q (mkV 0 0 0) y 1 W B Q T) as X. rewrite norm_0, Rplus_0_r in X.
     eapply tame_ext; [|exact X]. intros u. apply V_eq; unfold vadd; simpl; ring. }
   intros F H. induction F as [|g out [O T] F (B & E & IH)]; simpl.
-  - exists 0. split; [ring|]. exists (fun _ => mkV 0 0 0), (fun _ => mkV 0 0 0). intros u _. rewrite Z.
-    split; [|split; [|split; [|split]]]; try lra; exact (derives_const _ u).
+  - exists 0. split; [ring|exact (tame_const a 1 H)].
   - pose proof (unit_axis_unit _ O) as U. destruct O as [O _]. unfold aim. destruct (slides (the g)).
     + exists B. split; [rewrite E; ring|]. rewrite Rmult_0_r, Rplus_0_r. exact (F0 _ _ _ _ O IH).
     + exists (B + bend g * 1 + speed g * (2 * outer1 (loop out p) + speed g * 1)). split.
