@@ -274,7 +274,7 @@ Proof.
   rewrite !D, N in M. apply Rabs_le. lra.
 Qed.
 
-(* ---- THE LAW. A point x of a part, which is on the last link: scaled by s, turned by q, put at p. `u`: the share of the stretch *)
+(* ---- THE LAW. A point x of a part, which is on the last link: scaled by s, turned by q, put at p. u: the stretch's share *)
 Definition on_link s q p x := vadd (vscale s (rot q x)) p.
 Lemma on_link_norm s q p x : 0 <= s -> 0 < qdot q q -> norm (on_link s q p x) <= norm p + s * norm x.
 Proof.
