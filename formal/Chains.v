@@ -315,28 +315,33 @@ Definition fit m := List.Forall (fun g => well_made (fst g)) (joints m) /\ 0 <= 
 Definition where_is n b e m t x := carried (map (fun g => (fst g, bez n (snd g) ((t - b) / (e - b)))) (joints m))
   (on_link (grown m) (posed m) (put m) x).
 
-(* as verify__curve and verify__part_deviation have it from t0 to t1: the points of that part of each curve, and what they say *)
-Definition measured n b e t0 t1 (g : joint * (nat -> R)) :=
+(* as verify__curve and verify__part_deviation have it from t0 to t1: the points of that part of each curve, and what they say. `o`: of the largest of a
+   curve's points, what is added to each for roundings; the C's is 5e-13, and here it may be any *)
+Definition measured o n b e t0 t1 (g : joint * (nat -> R)) :=
   let to := (t1 - b) / (e - b) in let from := (t0 - b) / (e - b) / to in
-  let p := cut n from to (snd g) in
-  mkLink (fst g) (bez n p) (largest n p) (INR n * largest (pred n) (diff p))
-    (INR n * INR (pred n) * largest (pred (pred n)) (diff (diff p))).
-Definition strays n b e t0 t1 m r :=
-  let z := loop (map (measured n b e t0 t1) (joints m)) (put m) in deviation0 z + deviation1 z * r.
+  let p := cut n from to (snd g) in let off := o * largest n (snd g) in
+  mkLink (fst g) (bez n p) (largest n p + off) (INR n * largest (pred n) (diff p) + off)
+    (INR n * INR (pred n) * largest (pred (pred n)) (diff (diff p)) + off).
+Definition strays o n b e t0 t1 m r :=
+  let z := loop (map (measured o n b e t0 t1) (joints m)) (put m) in deviation0 z + deviation1 z * r.
 
-Lemma measured_ok n b e t0 t1 g : well_made (fst g) -> ok (measured n b e t0 t1 g).
+Lemma measured_ok o n b e t0 t1 g : 0 <= o -> well_made (fst g) -> ok (measured o n b e t0 t1 g).
 Proof.
-  intros W. split; [exact W|]. unfold measured. cbv zeta. cbn [value most speed bend].
+  intros P W. split; [exact W|]. unfold measured. cbv zeta. cbn [value most speed bend].
+  assert (Off : 0 <= o * largest n (snd g)).
+  { apply Rmult_le_pos; [exact P|]. eapply Rle_trans; [apply Rabs_pos|apply (largest_is n (snd g) 0)]. apply Nat.le_0_l. }
+  assert (More : forall x y, x <= y -> x <= y + o * largest n (snd g)) by (intros; lra).
   set (p := cut _ _ _ _). clearbody p. pose proof (pos_INR n) as N. pose proof (pos_INR (pred n)) as N'.
   exists (fun u => INR n * bez (pred n) (diff p) u), (fun u => INR n * (INR (pred n) * bez (pred (pred n)) (diff (diff p)) u)).
-  intros u I. split; [apply bez_derives|]. split; [apply is_derive_scal, bez_derives|]. split; [apply bez_bounds, I|].
+  intros u I. split; [apply bez_derives|]. split; [apply is_derive_scal, bez_derives|]. split; [apply More, bez_bounds, I|].
   rewrite !Rabs_mult, (Rabs_pos_eq (INR n)), (Rabs_pos_eq (INR (pred n))) by auto. rewrite <- Rmult_assoc.
-  split; apply Rmult_le_compat_l; auto; try apply bez_bounds, I. apply Rmult_le_pos; auto.
+  split; apply More, Rmult_le_compat_l; auto; try apply bez_bounds, I. apply Rmult_le_pos; auto.
 Qed.
-Lemma measured_all n b e t0 t1 l : List.Forall (fun g => well_made (fst g)) l -> List.Forall ok (map (measured n b e t0 t1) l).
+Lemma measured_all o n b e t0 t1 l : 0 <= o -> List.Forall (fun g => well_made (fst g)) l ->
+  List.Forall ok (map (measured o n b e t0 t1) l).
 Proof.
-  intros F. apply Forall_forall. intros g H. apply in_map_iff in H. destruct H as (h & <- & H).
-  apply measured_ok. rewrite Forall_forall in F. apply F, H.
+  intros P F. apply Forall_forall. intros g H. apply in_map_iff in H. destruct H as (h & <- & H).
+  apply measured_ok; [exact P|]. rewrite Forall_forall in F. apply F, H.
 Qed.
 Lemma share_within t0 t1 t : t0 < t1 -> t0 <= t <= t1 -> 0 <= (t - t0) / (t1 - t0) <= 1.
 Proof.
@@ -344,8 +349,8 @@ Proof.
   apply Rmult_le_reg_r with (t1 - t0); [lra|]. unfold Rdiv. rewrite Rmult_assoc, Rinv_l by lra. lra.
 Qed.
 (* at a share of the stretch, a measured chain is where the part is *)
-Lemma measured_is n b e t0 t1 m t x : b < e -> b <= t0 < t1 ->
-  chain (map (measured n b e t0 t1) (joints m)) ((t - t0) / (t1 - t0)) (on_link (grown m) (posed m) (put m) x) =
+Lemma measured_is o n b e t0 t1 m t x : b < e -> b <= t0 < t1 ->
+  chain (map (measured o n b e t0 t1) (joints m)) ((t - t0) / (t1 - t0)) (on_link (grown m) (posed m) (put m) x) =
   where_is n b e m t x.
 Proof.
   intros E I. unfold chain, where_is. rewrite map_map. f_equal. apply map_ext. intros g.
@@ -353,19 +358,19 @@ Proof.
 Qed.
 
 (* A point of a part leaves its chord from t0 to t1, which are in one piece, by `strays` at most along a direction of length 1 *)
-Theorem motion_leaves_chord n b e m t0 t1 t x r v : fit m -> norm (vscale (grown m) x) <= r ->
+Theorem motion_leaves_chord o n b e m t0 t1 t x r v : 0 <= o -> fit m -> norm (vscale (grown m) x) <= r ->
   b <= t0 < t1 -> t1 <= e -> t0 <= t <= t1 ->
   let f w := dot v (where_is n b e m w x) in
-  Rabs (f t - ((t1 - t) * f t0 + (t - t0) * f t1) / (t1 - t0)) <= norm v * strays n b e t0 t1 m r.
+  Rabs (f t - ((t1 - t) * f t0 + (t - t0) * f t1) / (t1 - t0)) <= norm v * strays o n b e t0 t1 m r.
 Proof.
-  intros (F & G & Q) R I J T f. assert (E : b < e) by lra.
-  set (l := map (measured n b e t0 t1) (joints m)). rewrite norm_vscale in R by auto.
-  assert (O : List.Forall ok l) by (apply measured_all, F).
+  intros Po (F & G & Q) R I J T f. assert (E : b < e) by lra.
+  set (l := map (measured o n b e t0 t1) (joints m)). rewrite norm_vscale in R by auto.
+  assert (O : List.Forall ok l) by (apply measured_all; auto).
   pose proof (share_within t0 t1 t ltac:(lra) T) as U.
   assert (Y : norm (on_link (grown m) (posed m) (put m) x) <= norm (put m) + r)
     by (pose proof (on_link_norm (grown m) (posed m) (put m) x G Q); lra).
   pose proof (tame_chain l _ _ O Y) as Tm. pose proof (tame_chord _ _ _ _ v _ Tm U) as C.
-  pose proof (measured_is n b e t0 t1 m t0 x E I) as M0. pose proof (measured_is n b e t0 t1 m t1 x E I) as M1.
+  pose proof (measured_is o n b e t0 t1 m t0 x E I) as M0. pose proof (measured_is o n b e t0 t1 m t1 x E I) as M1.
   replace ((t0 - t0) / (t1 - t0)) with 0 in M0 by (field; lra). replace ((t1 - t0) / (t1 - t0)) with 1 in M1 by (field; lra).
   cbv beta in C. unfold l in C. rewrite measured_is, M0, M1 in C by auto. fold l (f t) (f t0) (f t1) in C.
   replace (((t1 - t) * f t0 + (t - t0) * f t1) / (t1 - t0)) with
@@ -379,7 +384,7 @@ Proof.
 Qed.
 
 (* and an arm of 1 m that turns steadily from -h to h: its tip leaves its chord by 1 - cos h, and the law says h^2 / 2, and a bit *)
-Example arm_strays h : 0 <= h -> strays 1 0 1 0 1 (mkPart [(upright origin0, fun i => match i with O => - h | _ => h end)]
+Example arm_strays h : 0 <= h -> strays 0 1 0 1 0 1 (mkPart [(upright origin0, fun i => match i with O => - h | _ => h end)]
   1 still (mkV 1 0 0)) 0 = eighth * (2 * h) ^ 2.
 Proof.
   intros H. assert (S : norm (mkV 1 0 0) = 1).
@@ -392,22 +397,22 @@ Qed.
 
 (* ---- nsvcd_verify's step for two parts of one motion, seen from one base: a plane of normal v that separates a point of each at
    two instants of a piece, by more than the clearance and both deviations, separates them at all times between *)
-Theorem parts_apart n b e ma mb t0 t1 x y rx ry v c : fit ma -> fit mb ->
+Theorem parts_apart o n b e ma mb t0 t1 x y rx ry v c : 0 <= o -> fit ma -> fit mb ->
   norm (vscale (grown ma) x) <= rx -> norm (vscale (grown mb) y) <= ry -> b <= t0 < t1 -> t1 <= e ->
-  let least := norm v * c + (norm v * strays n b e t0 t1 ma rx + norm v * strays n b e t0 t1 mb ry) in
+  let least := norm v * c + (norm v * strays o n b e t0 t1 ma rx + norm v * strays o n b e t0 t1 mb ry) in
   least < dot v (vsub (where_is n b e ma t0 x) (where_is n b e mb t0 y)) ->
   least < dot v (vsub (where_is n b e ma t1 x) (where_is n b e mb t1 y)) ->
   forall t, t0 <= t <= t1 -> c < norm (vsub (where_is n b e ma t x) (where_is n b e mb t y)).
 Proof.
-  intros Fa Fb Rx Ry I J least Hs He t T.
+  intros Po Fa Fb Rx Ry I J least Hs He t T.
   assert (Sub : forall p q, dot v (vsub p q) = dot v p - dot v q) by (intros; unfold dot, vsub; simpl; ring).
-  pose proof (motion_leaves_chord n b e ma t0 t1 t x rx v Fa Rx I J T) as A.
-  pose proof (motion_leaves_chord n b e mb t0 t1 t y ry v Fb Ry I J T) as B.
+  pose proof (motion_leaves_chord o n b e ma t0 t1 t x rx v Po Fa Rx I J T) as A.
+  pose proof (motion_leaves_chord o n b e mb t0 t1 t y ry v Po Fb Ry I J T) as B.
   cbv beta zeta in A, B. apply Rabs_le_between in A. apply Rabs_le_between in B.
   assert (Main : norm v * c < dot v (vsub (where_is n b e ma t x) (where_is n b e mb t y))).
   { rewrite Sub in *. unfold least in *.
     apply (chords_apart (fun w => dot v (where_is n b e ma w x)) (fun w => dot v (where_is n b e mb w y)) t0 t1 t
-      (norm v * strays n b e t0 t1 ma rx) (norm v * strays n b e t0 t1 mb ry)); auto; lra. }
+      (norm v * strays o n b e t0 t1 ma rx) (norm v * strays o n b e t0 t1 mb ry)); auto; lra. }
   pose proof (cauchy v (vsub (where_is n b e ma t x) (where_is n b e mb t y))) as X.
   pose proof (Rle_abs (dot v (vsub (where_is n b e ma t x) (where_is n b e mb t y)))). pose proof (norm_pos v).
   set (d := norm (vsub _ _)) in *. nra.
@@ -441,14 +446,14 @@ Proof.
       * exact (F0 _ _ _ _ O (tame_turn _ _ _ _ _ _ _ _ _ U T IH)).
 Qed.
 (* so where it is within an angle of a direction v at two instants, by deviation[1] and more, it is so at all times between *)
-Theorem axis_keeps n b e m t0 t1 t a v least : fit m -> norm a <= 1 -> norm v <= 1 ->
+Theorem axis_keeps o n b e m t0 t1 t a v least : 0 <= o -> fit m -> norm a <= 1 -> norm v <= 1 ->
   b <= t0 < t1 -> t1 <= e -> t0 <= t <= t1 ->
-  let most1 := deviation1 (loop (map (measured n b e t0 t1) (joints m)) (put m)) in
+  let most1 := deviation1 (loop (map (measured o n b e t0 t1) (joints m)) (put m)) in
   least + most1 <= dot v (points_to n b e m t0 a) -> least + most1 <= dot v (points_to n b e m t1 a) ->
   least <= dot v (points_to n b e m t a).
 Proof.
-  intros (F & _ & Q) Ha Hv I J T most1 H0 H1. assert (E : b < e) by lra. set (l := map _ (joints m)) in most1.
-  assert (O : List.Forall ok l) by (apply measured_all, F).
+  intros Po (F & _ & Q) Ha Hv I J T most1 H0 H1. assert (E : b < e) by lra. set (l := map _ (joints m)) in most1.
+  assert (O : List.Forall ok l) by (apply measured_all; auto).
   destruct (tame_aimed l (put m) (rot (posed m) a) O) as (B & EB & Tm); [rewrite norm_rot; auto|].
   assert (M : forall w, aimed (map (fun g => (the g, value g ((w - t0) / (t1 - t0)))) l) (rot (posed m) a) = points_to n b e m w a).
   { intros w. unfold points_to, l. rewrite map_map. f_equal. apply map_ext. intros g.
