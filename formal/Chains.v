@@ -315,8 +315,8 @@ Definition fit m := List.Forall (fun g => well_made (fst g)) (joints m) /\ 0 <= 
 Definition where_is n b e m t x := carried (map (fun g => (fst g, bez n (snd g) ((t - b) / (e - b)))) (joints m))
   (on_link (grown m) (posed m) (put m) x).
 
-(* as verify__curve and verify__part_deviation have it from t0 to t1: the points of that part of each curve, and what they say. `o`: of the largest of a
-   curve's points, what is added to each for roundings; the C's is 5e-13, and here it may be any *)
+(* as verify__curve and verify__part_deviation have it from t0 to t1: the points of that part of each curve, and what they say.
+   `o` times the largest of a curve's points is added to each for roundings: the C has 5e-13; here it is any from 0 on *)
 Definition measured o n b e t0 t1 (g : joint * (nat -> R)) :=
   let to := (t1 - b) / (e - b) in let from := (t0 - b) / (e - b) / to in
   let p := cut n from to (snd g) in let off := o * largest n (snd g) in
@@ -357,7 +357,7 @@ Proof.
   unfold measured. cbv zeta. cbn [the value]. f_equal. rewrite cut_is. f_equal. field. lra.
 Qed.
 
-(* A point of a part leaves its chord from t0 to t1, which are in one piece, by `strays` at most along a direction of length 1 *)
+(* A point of a part leaves its chord from t0 to t1, which are in one piece, by `strays` at most along a direction v of length 1 *)
 Theorem motion_leaves_chord o n b e m t0 t1 t x r v : 0 <= o -> fit m -> norm (vscale (grown m) x) <= r ->
   b <= t0 < t1 -> t1 <= e -> t0 <= t <= t1 ->
   let f w := dot v (where_is n b e m w x) in
