@@ -1,381 +1,468 @@
-(* Chains.v - the law by which nsvcd_verify_robot.h bounds what a robot's links do: how far a point that joints carry leaves
-   its chord while their values follow Bezier curves. `link_leaves_chord` is the law, `links_stay_apart` what a plane at two
-   instants proves by it. No rounding here. *)
-From Coq Require Import Reals Lra Lia Psatz List.
+(* Chains.v - robots: what a chain of joints carries, how far that leaves its chord, and that a plane at two instants separates
+   two parts at all times between. It is the law of nsvcd_verify_robot.h, over the reals. Nothing here reads a plan's bytes. *)
+From Coq Require Import Reals Lra List.
 From Coquelicot Require Import Coquelicot.
-From Svcd Require Export Geometry.
+From Svcd Require Export Geometry Bezier.
 Import ListNotations.
 Local Open Scope R_scope.
 
-(* ---- Bezier curves: of n + 1 points, by de Casteljau's recursion *)
-Fixpoint bezier n (p : nat -> R) u := match n with
-  | O => p O
-  | S m => (1 - u) * bezier m p u + u * bezier m (fun i => p (S i)) u end.
-Definition steps (p : nat -> R) i := p (S i) - p i.
+(* ---- joints. A joint stands in the link that it is on: turned by a quaternion, which need not be of length 1, and moved by an
+   offset. Its axis may be of any length but 0 (verify__part_place) *)
+Record joint := mkJoint { slides : bool; frame : quat; offset : V; axis : V }.
+Definition well_made j := 0 < qdot (frame j) (frame j) /\ 0 < norm (axis j).
+Definition unit_axis j := vscale (/ norm (axis j)) (axis j).
+Definition turn a q := mkQ (vx a * sin (q / 2)) (vy a * sin (q / 2)) (vz a * sin (q / 2)) (cos (q / 2)).
+Definition carry j q y := vadd (rot (frame j)
+  (if slides j then vadd y (vscale q (unit_axis j)) else rot (turn (unit_axis j) q) y)) (offset j).
+(* T_1 (T_2 (... y)): joints with their values, the one at the base first *)
+Definition carried (l : list (joint * R)) y := fold_right (fun g y => carry (fst g) (snd g) y) y l.
 
-Lemma bezier_ext n : forall p q u, (forall i, (i <= n)%nat -> p i = q i) -> bezier n p u = bezier n q u.
+(* ---- the words say what they should: an arm of two joints in a plane, and a slide along its axis *)
+Definition still := mkQ 0 0 0 1.
+Definition origin0 := mkV 0 0 0.
+Definition upright at_ := mkJoint false still at_ (mkV 0 0 1).
+Example arm_of_two q r : carried [(upright origin0, q); (upright (mkV 1 0 0), r)] (mkV 1 0 0) =
+  mkV (cos q + cos (q + r)) (sin q + sin (q + r)) 0.
 Proof.
-  induction n; intros p q u H; cbn [bezier]; [apply H; lia|].
-  rewrite (IHn p q), (IHn (fun i => p (S i)) (fun i => q (S i))) by (intros; apply H; lia). reflexivity.
+  assert (S : / norm (mkV 0 0 1) = 1).
+  { unfold norm, dot. simpl. replace (0 * 0 + 0 * 0 + 1 * 1) with 1 by ring. rewrite sqrt_1. field. }
+  assert (T : forall x p, rot (turn (unit_axis (upright x)) p) = rot (mkQ 0 0 (sin (p / 2)) (cos (p / 2)))).
+  { intros. f_equal. unfold turn, unit_axis, upright, vscale. simpl. rewrite S. f_equal; ring. }
+  assert (U : forall p v, rot (mkQ 0 0 (sin (p / 2)) (cos (p / 2))) v =
+    mkV (cos p * vx v - sin p * vy v) (sin p * vx v + cos p * vy v) (vz v)).
+  { intros p v. assert (P : p = 2 * (p / 2)) by field. pose proof (sin2_cos2 (p / 2)) as C. unfold Rsqr in C.
+    assert (C' : sin (p / 2) * sin (p / 2) = 1 - cos (p / 2) * cos (p / 2)) by lra.
+    rewrite P at 3 4 5 6. rewrite cos_2a, sin_2a. set (c := cos _) in *. set (s := sin _) in *.
+    rewrite rot_unit by (unfold qdot; simpl; lra). apply V_eq; unfold turned; simpl; ring_simplify; try ring.
+    replace (s ^ 2) with (1 - c * c) by (simpl; lra). ring. }
+  assert (I : forall v, rot still v = v).
+  { intros. rewrite rot_unit by (unfold qdot; simpl; ring). apply V_eq; unfold turned; simpl; ring. }
+  unfold carried, carry. cbn [fold_right fst snd slides]. rewrite !T, !U. cbn [frame upright]. rewrite !I, cos_plus, sin_plus.
+  apply V_eq; simpl; ring.
 Qed.
-Lemma bezier_linear n : forall a p b q u,
-  bezier n (fun i => a * p i + b * q i) u = a * bezier n p u + b * bezier n q u.
+Example slide_of_one q : carried [(mkJoint true still (mkV 0 0 1) (mkV 0 3 4), q)] (mkV 1 0 0) = mkV 1 (q * 3 / 5) (1 + q * 4 / 5).
 Proof.
-  induction n; intros; cbn [bezier]; [reflexivity|].
-  rewrite (IHn a p b q), (IHn a (fun i => p (S i)) b (fun i => q (S i))). ring.
-Qed.
-Lemma bezier_steps n p u : bezier n (steps p) u = bezier n (fun i => p (S i)) u - bezier n p u.
-Proof.
-  rewrite (bezier_ext n _ (fun i => 1 * p (S i) + -1 * p i)) by (intros; unfold steps; ring).
-  rewrite (bezier_linear n 1 (fun i => p (S i)) (-1) p). ring.
-Qed.
-
-(* the derivative is n times the curve of the steps *)
-Lemma bezier_derive n : forall p u, is_derive (bezier n p) u (INR n * bezier (pred n) (steps p) u).
-Proof.
-  induction n; intros p u; cbn [bezier pred].
-  - rewrite Rmult_0_l. apply @is_derive_const.
-  - pose proof (IHn p u) as A. pose proof (IHn (fun i => p (S i)) u) as B.
-    evar_last.
-    + apply (is_derive_plus (fun u => (1 - u) * bezier n p u) (fun u => u * bezier n (fun i => p (S i)) u)).
-      * apply (is_derive_mult (fun u => 1 - u) (bezier n p)); [|exact A|intros; apply Rmult_comm].
-        auto_derive; [exact I|]. instantiate (1 := -1). ring.
-      * apply (is_derive_mult (fun u => u) (bezier n (fun i => p (S i)))); [|exact B|intros; apply Rmult_comm].
-        apply (is_derive_id (K := R_AbsRing)).
-    + unfold plus, mult, one; simpl. destruct n as [|n].
-      * simpl. unfold steps. ring.
-      * cbn [Init.Nat.pred bezier].
-        change (fun i => steps p (S i)) with (steps (fun i => p (S i))).
-        rewrite !bezier_steps. ring.
-Qed.
-
-(* it stays within the bounds of its points *)
-Lemma bezier_within n : forall p M u, 0 <= u <= 1 -> (forall i, (i <= n)%nat -> Rabs (p i) <= M) -> Rabs (bezier n p u) <= M.
-Proof.
-  induction n; intros p M u U H; cbn [bezier]; [apply H; lia|].
-  eapply Rle_trans; [apply Rabs_triang|]. rewrite !Rabs_mult, (Rabs_pos_eq u), (Rabs_pos_eq (1 - u)) by lra.
-  pose proof (IHn p M u U ltac:(intros; apply H; lia)). pose proof (IHn (fun i => p (S i)) M u U ltac:(intros; apply H; lia)). nra.
+  assert (S : norm (mkV 0 3 4) = 5).
+  { unfold norm, dot. simpl. replace (0 * 0 + 3 * 3 + 4 * 4) with (5 * 5) by ring. apply sqrt_square. lra. }
+  unfold carried, carry, unit_axis. simpl. rewrite S, rot_unit by (unfold qdot; simpl; ring).
+  apply V_eq; unfold turned, vadd, vscale; simpl; field.
 Qed.
 
-(* what verify__curve's two loops leave: the points of the curve up to a share, and of that from a share on *)
-Definition cut_to c (p : nat -> R) i := bezier i p c.
-Definition cut_from n c (p : nat -> R) i := bezier (n - i) (fun k => p (i + k)%nat) c.
-Lemma bezier_cut_to c u n : forall p, bezier n (cut_to c p) u = bezier n p (c * u).
+(* ---- curves of points and their derivatives, coordinate by coordinate *)
+Definition derives (f : R -> V) u d := is_derive (fun v => vx (f v)) u (vx d) /\
+  is_derive (fun v => vy (f v)) u (vy d) /\ is_derive (fun v => vz (f v)) u (vz d).
+Lemma derives_ext f g u d : (forall v, f v = g v) -> derives f u d -> derives g u d.
 Proof.
-  induction n; intros p; [reflexivity|]. cbn [bezier]. rewrite IHn.
-  rewrite (bezier_ext n (fun i => cut_to c p (S i)) (fun i => (1 - c) * cut_to c p i + c * cut_to c (fun k => p (S k)) i))
-    by (intros; reflexivity).
-  rewrite bezier_linear, !IHn. ring.
+  intros E (A & B & C). split; [|split]; (eapply is_derive_ext; [|eassumption]); intros v; simpl; rewrite E; reflexivity.
 Qed.
-Lemma bezier_cut_from c u n : forall p, bezier n (cut_from n c p) u = bezier n p (c + (1 - c) * u).
+Lemma derives_const k u : derives (fun _ => k) u (mkV 0 0 0).
+Proof. split; [|split]; apply (is_derive_const (K := R_AbsRing) (V := R_NormedModule)). Qed.
+Lemma derives_vadd f g u d e : derives f u d -> derives g u e -> derives (fun v => vadd (f v) (g v)) u (vadd d e).
 Proof.
-  induction n; intros p; [reflexivity|]. cbn [bezier].
-  rewrite (bezier_ext n (cut_from (S n) c p) (fun i => (1 - c) * cut_from n c p i + c * cut_from n c (fun k => p (S k)) i)).
-  2:{ intros i L. unfold cut_from. replace (S n - i)%nat with (S (n - i)) by lia. cbn [bezier]. f_equal.
-      f_equal. apply bezier_ext. intros. f_equal. lia. }
-  rewrite (bezier_ext n (fun i => cut_from (S n) c p (S i)) (cut_from n c (fun k => p (S k)))) by (intros; reflexivity).
-  rewrite bezier_linear, !IHn. ring.
+  intros (A & B & C) (D & E & F).
+  split; [exact (is_derive_plus _ _ _ _ _ A D)|split; [exact (is_derive_plus _ _ _ _ _ B E)|exact (is_derive_plus _ _ _ _ _ C F)]].
 Qed.
-Definition part n from to p := cut_from n (from / to) (cut_to to p).
-Lemma bezier_part n from to p u : to <> 0 -> bezier n (part n from to p) u = bezier n p (from + (to - from) * u).
-Proof. intros T. unfold part. rewrite bezier_cut_from, bezier_cut_to. f_equal. field. exact T. Qed.
-
-(* ---- points that move: at most L from the origin, at a speed of W, bending by B, for shares u from 0 to 1 *)
-Definition deriveV (y : R -> V) u d := is_derive (fun v => vx (y v)) u (vx d) /\ is_derive (fun v => vy (y v)) u (vy d) /\
-  is_derive (fun v => vz (y v)) u (vz d).
-Definition within (y : R -> V) L W B := exists y1 y2 : R -> V,
-  (forall u, deriveV y u (y1 u)) /\ (forall u, deriveV y1 u (y2 u)) /\
-  forall u, 0 <= u <= 1 -> norm (y u) <= L /\ norm (y1 u) <= W /\ norm (y2 u) <= B.
-
-Lemma deriveV_eq y z u d e : deriveV y u d -> (forall v, y v = z v) -> d = e -> deriveV z u e.
-Proof. intros (A & B & C) Y <-. split; [|split]; (eapply is_derive_ext; [intros; rewrite <- Y; reflexivity|assumption]). Qed.
-Lemma deriveV_plus y z u d e : deriveV y u d -> deriveV z u e -> deriveV (fun v => vadd (y v) (z v)) u (vadd d e).
-Proof. intros (A & B & C) (A' & B' & C'). split; [|split]; simpl; apply @is_derive_plus; assumption. Qed.
-Lemma deriveV_const c u : deriveV (fun _ => c) u (mkV 0 0 0).
-Proof. split; [|split]; simpl; apply @is_derive_const. Qed.
-Lemma deriveV_rows a b c y u d : deriveV y u d ->
-  deriveV (fun v => mkV (dot a (y v)) (dot b (y v)) (dot c (y v))) u (mkV (dot a d) (dot b d) (dot c d)).
+Lemma derives_vscale k f u k1 d : is_derive k u k1 -> derives f u d ->
+  derives (fun v => vscale (k v) (f v)) u (vadd (vscale k1 (f u)) (vscale (k u) d)).
 Proof.
-  intros (A & B & C). unfold dot. split; [|split]; simpl; repeat apply @is_derive_plus; apply is_derive_scal; assumption.
+  intros K (A & B & C). split; [|split];
+    [exact (is_derive_mult _ _ _ _ _ K A Rmult_comm)|exact (is_derive_mult _ _ _ _ _ K B Rmult_comm)|
+     exact (is_derive_mult _ _ _ _ _ K C Rmult_comm)].
 Qed.
-Lemma deriveV_rot q y u d : deriveV y u d -> deriveV (fun v => rot q (y v)) u (rot q d).
-Proof. intros D. eapply deriveV_eq; [apply (deriveV_rows (row0 q) (row1 q) (row2 q)), D|intros; symmetry; apply rot_rows|symmetry; apply rot_rows]. Qed.
-Lemma deriveV_scale f g y u d : is_derive f u g -> deriveV y u d ->
-  deriveV (fun v => vscale (f v) (y v)) u (vadd (vscale g (y u)) (vscale (f u) d)).
+Lemma derives_dot n f u d : derives f u d -> is_derive (fun v => dot n (f v)) u (dot n d).
 Proof.
-  intros F (A & B & C).
-  split; [|split]; simpl; apply (is_derive_mult f); auto; intros; apply Rmult_comm.
+  intros (A & B & C). unfold dot.
+  exact (is_derive_plus _ _ _ _ _ (is_derive_plus _ _ _ _ _ (is_derive_scal _ _ (vx n) _ A) (is_derive_scal _ _ (vy n) _ B))
+           (is_derive_scal _ _ (vz n) _ C)).
 Qed.
-Lemma deriveV_cross a y u d : deriveV y u d -> deriveV (fun v => cross a (y v)) u (cross a d).
+Lemma derives_cross a f u d : derives f u d -> derives (fun v => cross a (f v)) u (cross a d).
 Proof.
-  intros D. eapply deriveV_eq;
-    [apply (deriveV_rows (mkV 0 (- vz a) (vy a)) (mkV (vz a) 0 (- vx a)) (mkV (- vy a) (vx a) 0)), D|intros|];
-    apply V_eq; unfold cross, dot; simpl; ring.
+  intros (A & B & C). split; [|split];
+    [exact (is_derive_minus _ _ _ _ _ (is_derive_scal _ _ (vy a) _ C) (is_derive_scal _ _ (vz a) _ B))|
+     exact (is_derive_minus _ _ _ _ _ (is_derive_scal _ _ (vz a) _ A) (is_derive_scal _ _ (vx a) _ C))|
+     exact (is_derive_minus _ _ _ _ _ (is_derive_scal _ _ (vx a) _ B) (is_derive_scal _ _ (vy a) _ A))].
+Qed.
+Lemma derives_rot q f u d : derives f u d -> derives (fun v => rot q (f v)) u (rot q d).
+Proof.
+  intros D. rewrite rot_rows. eapply derives_ext; [intros v; symmetry; apply rot_rows|].
+  split; [|split]; apply derives_dot, D.
 Qed.
 
-(* the chord: a curve that bends by B leaves it, along n, by an eighth of that *)
-Lemma within_chord y L W B n u : within y L W B -> 0 <= u <= 1 ->
-  (1 - u) * dot n (y 0) + u * dot n (y 1) - norm n * B / 8 <= dot n (y u).
+(* ---- a turn, as Rodrigues has it; its derivative is the turn of what y' and q' a x y are together *)
+Definition about a q y := vadd (vscale (cos q) y) (vadd (vscale (sin q) (cross a y)) (vscale ((1 - cos q) * dot a y) a)).
+Lemma by_unit a p q r : dot a a = 1 -> p - q = r * (dot a a - 1) -> p = q.
+Proof. intros A. rewrite A. lra. Qed.
+Lemma turn_unit a q : dot a a = 1 -> qdot (turn a q) (turn a q) = 1.
 Proof.
-  intros (y1 & y2 & D1 & D2 & H) U. set (K := norm n * B). set (f := fun v => dot n (y v)).
-  assert (N : forall v, 0 <= v <= 1 -> Rabs (dot n (y2 v)) <= K).
-  { intros v Iv. destruct (H v Iv) as (_ & _ & E). eapply Rle_trans; [apply cauchy|]. apply Rmult_le_compat_l; [apply norm_pos|exact E]. }
-  assert (K0 : 0 <= K) by (pose proof (N 0 ltac:(lra)); pose proof (Rabs_pos (dot n (y2 0))); lra).
-  assert (F1 : forall v, is_derive f v (dot n (y1 v))) by (intros v; apply (deriveV_rows n n n y v _ (D1 v))).
-  assert (F2 : forall v, is_derive (fun v => dot n (y1 v)) v (dot n (y2 v))) by (intros v; apply (deriveV_rows n n n y1 v _ (D2 v))).
-  set (g := fun v => K / 2 * v * (1 - v) - ((1 - v) * f 0 + v * f 1)).
-  assert (G : forall v, is_derive g v (K / 2 * (1 - 2 * v) - (f 1 - f 0))).
-  { intros v. unfold g. generalize (f 0) (f 1). intros f0 f1. auto_derive; [exact I|field]. }
-  assert (P : 0 <= (fun v => f v + g v) u).
-  { apply (concave_above (fun v => f v + g v) (fun v => dot n (y1 v) + (K / 2 * (1 - 2 * v) - (f 1 - f 0))) (fun v => dot n (y2 v) + - K) 0 1); auto.
-    - intros v. apply is_derive_Reals. exact (is_derive_plus f g v _ _ (F1 v) (G v)).
-    - intros v. apply is_derive_Reals. apply (is_derive_plus (fun v => dot n (y1 v)) (fun v => K / 2 * (1 - 2 * v) - (f 1 - f 0)) v _ _ (F2 v)).
-      generalize (f 0) (f 1). intros f0 f1. auto_derive; [exact I|field].
-    - intros v Iv. pose proof (N v Iv) as A. apply Rabs_le_between in A. lra.
-    - unfold g. ring.
-    - unfold g. ring. }
-  unfold g in P. fold (f 0) (f 1) (f u). assert (u * (1 - u) <= 1 / 4) by (pose proof (pow2_ge_0 (2 * u - 1)); lra).
-  assert (K / 2 * (u * (1 - u)) <= K / 2 * (1 / 4)) by (apply Rmult_le_compat_l; lra). lra.
+  intros A. pose proof (sin2_cos2 (q / 2)) as C. unfold Rsqr in C.
+  replace (qdot _ _) with (sin (q / 2) * sin (q / 2) * dot a a + cos (q / 2) * cos (q / 2))
+    by (unfold qdot, turn, dot; simpl; ring). rewrite A. lra.
+Qed.
+Lemma turn_about a q y : dot a a = 1 -> rot (turn a q) y = about a q y.
+Proof.
+  intros A. rewrite rot_unit by (apply turn_unit, A). pose proof (sin2_cos2 (q / 2)) as C. unfold Rsqr in C.
+  unfold about. replace q with (2 * (q / 2)) at 2 3 4 by field. rewrite cos_2a, sin_2a.
+  unfold turn. set (c := cos _) in *. set (s := sin _) in *.
+  assert (D : 1 - (c * c - s * s) = 2 * (s * s)) by lra. rewrite D.
+  apply V_eq; unfold turned, vadd, vscale, cross, dot; simpl;
+    [apply (by_unit a _ _ (- (s * s) * vx y))|apply (by_unit a _ _ (- (s * s) * vy y))|apply (by_unit a _ _ (- (s * s) * vz y))];
+    auto; unfold dot; ring.
+Qed.
+Lemma norm_rot q v : 0 < qdot q q -> norm (rot q v) = norm v.
+Proof.
+  intros Q. unfold rot. rewrite norm_vscale by (apply Rlt_le, Rinv_0_lt_compat, Q). rewrite turned_norm. field. lra.
+Qed.
+Lemma norm_about a q y : dot a a = 1 -> norm (about a q y) = norm y.
+Proof. intros A. rewrite <- turn_about by auto. apply norm_rot. rewrite turn_unit by auto. lra. Qed.
+Lemma derives_about a q y u q1 y1 : dot a a = 1 -> is_derive q u q1 -> derives y u y1 ->
+  derives (fun v => about a (q v) (y v)) u (about a (q u) (vadd y1 (vscale q1 (cross a (y u))))).
+Proof.
+  intros A Q Y. assert (D1 : Derive (fun v => q v) u = q1) by (apply is_derive_unique, Q).
+  assert (C : is_derive (fun v => cos (q v)) u (- q1 * sin (q u)))
+    by (auto_derive; [exists q1; exact Q|rewrite D1; ring]).
+  assert (C' : is_derive (fun v => 1 - cos (q v)) u (q1 * sin (q u)))
+    by (auto_derive; [exists q1; exact Q|rewrite D1; ring]).
+  assert (S : is_derive (fun v => sin (q v)) u (q1 * cos (q u)))
+    by (auto_derive; [exists q1; exact Q|rewrite D1; ring]).
+  pose proof (derives_vadd _ _ _ _ _ (derives_vscale _ _ _ _ _ C Y) (derives_vadd _ _ _ _ _
+    (derives_vscale _ _ _ _ _ S (derives_cross a _ _ _ Y)) (derives_vscale _ _ _ _ _
+      (is_derive_mult _ _ _ _ _ C' (derives_dot a _ _ _ Y) Rmult_comm) (derives_const a u)))) as D.
+  match type of D with derives _ _ ?e => replace (about a (q u) _) with e; [exact D|] end.
+  change plus with Rplus. change mult with Rmult.
+  unfold about. set (c := cos _). set (s := sin _).
+  apply V_eq; unfold vadd, vscale, cross, dot, plus, mult; simpl;
+    [apply (by_unit a _ _ (q1 * s * vx (y u)))|apply (by_unit a _ _ (q1 * s * vy (y u)))|apply (by_unit a _ _ (q1 * s * vz (y u)))];
+    auto; unfold dot; ring.
 Qed.
 
-(* ---- joints *)
-Definition is_unit v := dot v v = 1.
-Lemma unit_z a : is_unit a -> vz a * vz a = 1 - vx a * vx a - vy a * vy a.
-Proof. unfold is_unit, dot. lra. Qed.
-(* v turned by an angle about a is_unit axis (Rodrigues): as the quaternion axis sin q/2, cos q/2 does it *)
-Definition turn a q v := vadd (vscale (cos q) v) (vadd (vscale (sin q) (cross a v)) (vscale ((1 - cos q) * dot a v) a)).
-Lemma turn_rot a q v : is_unit a ->
-  rot (mkQ (sin (q / 2) * vx a) (sin (q / 2) * vy a) (sin (q / 2) * vz a) (cos (q / 2))) v = turn a q v.
+Lemma norm_0 : norm (mkV 0 0 0) = 0.
+Proof. unfold norm, dot. simpl. replace (0 * 0 + 0 * 0 + 0 * 0) with 0 by ring. apply sqrt_0. Qed.
+
+(* ---- a curve on a stretch, by its share u from 0 to 1: never farther than L from 0, its speed W at most, its bend B *)
+Definition tame (y : R -> V) L W B := exists y1 y2, forall u, 0 <= u <= 1 ->
+  derives y u (y1 u) /\ derives y1 u (y2 u) /\ norm (y u) <= L /\ norm (y1 u) <= W /\ norm (y2 u) <= B.
+Definition tame_value (q : R -> R) M V A := exists q1 q2, forall u, 0 <= u <= 1 ->
+  is_derive q u (q1 u) /\ is_derive q1 u (q2 u) /\ Rabs (q u) <= M /\ Rabs (q1 u) <= V /\ Rabs (q2 u) <= A.
+Lemma tame_const y L : norm y <= L -> tame (fun _ => y) L 0 0.
 Proof.
-  intros U. set (s := sin (q / 2)). set (c := cos (q / 2)).
-  assert (One : c * c = 1 - s * s) by (pose proof (sin2_cos2 (q / 2)) as E; unfold Rsqr in E; fold s c in E; lra).
-  assert (S : sin q = 2 * s * c) by (replace q with (2 * (q / 2)) by field; apply sin_2a).
-  assert (C : cos q = 1 - 2 * s * s) by (replace q with (2 * (q / 2)) at 1 by field; rewrite cos_2a_sin; reflexivity).
-  assert (Q : qdot (mkQ (s * vx a) (s * vy a) (s * vz a) c) (mkQ (s * vx a) (s * vy a) (s * vz a) c) = 1).
-  { unfold qdot; simpl. ring [One (unit_z a U)]. }
-  rewrite rot_unit by exact Q. unfold turn. rewrite S, C.
-  apply V_eq; unfold turned, vadd, vscale, cross, dot; simpl; ring [One (unit_z a U)].
+  intros H. exists (fun _ => mkV 0 0 0), (fun _ => mkV 0 0 0). intros u _. rewrite norm_0.
+  split; [|split; [|split; [|split]]]; try lra; exact (derives_const _ u).
 Qed.
-Lemma turn_norm a q v : is_unit a -> norm (turn a q v) = norm v.
+Lemma norm_scaled k v K N : Rabs k <= K -> norm v <= N -> norm (vscale k v) <= K * N.
 Proof.
-  intros U. unfold norm. f_equal. pose proof (sin2_cos2 q) as E. unfold Rsqr in E.
-  assert (One : cos q * cos q = 1 - sin q * sin q) by lra.
-  unfold turn, dot, vadd, vscale, cross. simpl. ring [One (unit_z a U)].
+  intros A B. replace (norm (vscale k v)) with (Rabs k * norm v).
+  - apply Rmult_le_compat; auto; [apply Rabs_pos|apply norm_pos].
+  - unfold norm. rewrite <- sqrt_Rsqr_abs, <- sqrt_mult by (apply Rle_0_sqr || apply dot_pos).
+    f_equal. unfold Rsqr, dot, vscale; simpl; ring.
 Qed.
-Lemma turn_add a q v w : turn a q (vadd v w) = vadd (turn a q v) (turn a q w).
-Proof. unfold turn, dot. apply V_eq; unfold vadd, vscale, cross; simpl; ring. Qed.
-Lemma turn_derive a q q1 y d u : is_unit a -> is_derive q u q1 -> deriveV y u d ->
-  deriveV (fun v => turn a (q v) (y v)) u (turn a (q u) (vadd d (vscale q1 (cross a (y u))))).
+Lemma norm_sum v w A B : norm v <= A -> norm w <= B -> norm (vadd v w) <= A + B.
+Proof. intros. pose proof (norm_vadd v w). lra. Qed.
+Lemma norm_across a v N : dot a a = 1 -> norm v <= N -> norm (cross a v) <= N.
+Proof. intros A H. pose proof (cross_norm a v) as C. unfold norm at 2 in C. rewrite A, sqrt_1 in C. lra. Qed.
+
+(* a joint that turns adds V L to the speed and A L + V (2 W + V L) to the bend *)
+Lemma tame_turn a q y M V A L W B : dot a a = 1 -> tame_value q M V A -> tame y L W B ->
+  tame (fun u => rot (turn a (q u)) (y u)) L (W + V * L) (B + A * L + V * (2 * W + V * L)).
 Proof.
-  intros U Q D.
-  assert (Cos : is_derive (fun v => cos (q v)) u (- sin (q u) * q1)).
-  { evar_last; [apply (is_derive_comp cos q); [apply is_derive_cos|exact Q]|]. unfold scal; simpl. unfold mult; simpl. ring. }
-  assert (Sin : is_derive (fun v => sin (q v)) u (cos (q u) * q1)).
-  { evar_last; [apply (is_derive_comp sin q); [apply is_derive_sin|exact Q]|]. unfold scal; simpl. unfold mult; simpl. ring. }
-  assert (Along : is_derive (fun v => (1 - cos (q v)) * dot a (y v)) u (sin (q u) * q1 * dot a (y u) + (1 - cos (q u)) * dot a d)).
-  { evar_last; [apply (is_derive_mult (fun v => 1 - cos (q v)) (fun v => dot a (y v)))|].
-    - apply (is_derive_minus (fun _ => 1)); [apply @is_derive_const|exact Cos].
-    - pose proof (deriveV_rows a a a y u d D) as (A & _). exact A.
-    - intros; apply Rmult_comm.
-    - unfold plus, mult, minus, opp, zero, plus; simpl. unfold plus; simpl. ring. }
-  eapply deriveV_eq; [|reflexivity|].
-  - apply deriveV_plus; [apply (deriveV_scale _ _ _ _ _ Cos D)|apply deriveV_plus].
-    + apply (deriveV_scale _ _ _ _ _ Sin (deriveV_cross a y u d D)).
-    + apply (deriveV_scale _ _ _ _ _ Along (deriveV_const a u)).
-  - apply V_eq; unfold turn, dot, vadd, vscale, cross; simpl; ring [(unit_z a U)].
+  intros N (q1 & q2 & Q) (y1 & y2 & Y).
+  set (w := fun u => vadd (y1 u) (vscale (q1 u) (cross a (y u)))).
+  set (w1 := fun u => vadd (y2 u) (vadd (vscale (q2 u) (cross a (y u))) (vscale (q1 u) (cross a (y1 u))))).
+  exists (fun u => about a (q u) (w u)), (fun u => about a (q u) (vadd (w1 u) (vscale (q1 u) (cross a (w u))))).
+  intros u I. destruct (Q u I) as (Q1 & Q2 & _ & HV & HA). destruct (Y u I) as (Y1 & Y2 & HL & HW & HB).
+  assert (Hw : norm (w u) <= W + V * L) by (apply norm_sum; [|apply norm_scaled; [|apply norm_across]]; auto).
+  split; [|split; [|split; [|split]]].
+  - eapply derives_ext; [intros v; symmetry; apply turn_about, N|apply derives_about; auto].
+  - apply derives_about; auto. apply derives_vadd; [exact Y2|apply derives_vscale; [exact Q2|apply derives_cross, Y1]].
+  - rewrite turn_about, norm_about; auto.
+  - rewrite norm_about; auto.
+  - rewrite norm_about by auto. replace (B + A * L + V * (2 * W + V * L)) with ((B + (A * L + V * W)) + V * (W + V * L)) by ring.
+    apply norm_sum; [apply norm_sum; [exact HB|apply norm_sum]|];
+      (apply norm_scaled; [assumption|apply norm_across; assumption]).
+Qed.
+(* one that slides adds V to the speed and A to the bend, and as far as it slides to the distance *)
+Lemma tame_slide a q y M V A L W B : dot a a = 1 -> tame_value q M V A -> tame y L W B ->
+  tame (fun u => vadd (y u) (vscale (q u) a)) (L + M) (W + V) (B + A).
+Proof.
+  intros N (q1 & q2 & Q) (y1 & y2 & Y).
+  assert (N1 : forall k K, Rabs k <= K -> norm (vscale k a) <= K).
+  { intros k K H. rewrite <- (Rmult_1_r K). apply norm_scaled; auto. unfold norm. rewrite N, sqrt_1. lra. }
+  assert (D : forall (k : R -> R) u k1, is_derive k u k1 -> derives (fun v => vscale (k v) a) u (vscale k1 a)).
+  { intros k u k1 K. pose proof (derives_vscale k (fun _ => a) u k1 _ K (derives_const a u)) as D.
+    replace (vscale k1 a) with (vadd (vscale k1 a) (vscale (k u) (mkV 0 0 0))); [exact D|].
+    apply V_eq; unfold vadd, vscale; simpl; ring. }
+  exists (fun u => vadd (y1 u) (vscale (q1 u) a)), (fun u => vadd (y2 u) (vscale (q2 u) a)).
+  intros u I. destruct (Q u I) as (Q1 & Q2 & HM & HV & HA). destruct (Y u I) as (Y1 & Y2 & HL & HW & HB).
+  split; [|split; [|split; [|split]]]; try (apply derives_vadd; auto); apply norm_sum; auto.
+Qed.
+Lemma tame_frame q o y L W B : 0 < qdot q q -> tame y L W B -> tame (fun u => vadd (rot q (y u)) o) (L + norm o) W B.
+Proof.
+  intros Q (y1 & y2 & Y). exists (fun u => rot q (y1 u)), (fun u => rot q (y2 u)).
+  intros u I. destruct (Y u I) as (Y1 & Y2 & HL & HW & HB). rewrite !(norm_rot q _ Q).
+  split; [|split; [|split; [|split]]]; auto.
+  - pose proof (derives_vadd _ _ _ _ _ (derives_rot q _ _ _ Y1) (derives_const o u)) as D.
+    replace (rot q (y1 u)) with (vadd (rot q (y1 u)) (mkV 0 0 0)); [exact D|].
+    apply V_eq; unfold vadd; simpl; ring.
+  - apply derives_rot, Y2.
+  - apply norm_sum; [rewrite (norm_rot q _ Q)|]; auto. apply Rle_refl.
+Qed.
+Lemma tame_ext y z L W B : (forall u, y u = z u) -> tame y L W B -> tame z L W B.
+Proof.
+  intros E (y1 & y2 & Y). exists y1, y2. intros u I. destruct (Y u I) as (Y1 & Y'). split; [|rewrite <- E; exact Y'].
+  eapply derives_ext; [exact E|exact Y1].
 Qed.
 
-Record joint := mkJoint { slides : bool; axis : V; frame : quat; offset : V }.
-Definition sound_joint j := is_unit (axis j) /\ qdot (frame j) (frame j) = 1.
-(* where a joint with the value q takes a point of its link, in the frame of the link that it is on *)
-Definition moved j q y := vadd (rot (frame j) (if slides j then vadd y (vscale q (axis j)) else turn (axis j) q y)) (offset j).
+(* ---- a chain on a stretch: each joint's value, with what that, its speed and its bend are at most *)
+Record link := mkLink { the : joint; value : R -> R; most : R; speed : R; bend : R }.
+Definition ok g := well_made (the g) /\ tame_value (value g) (most g) (speed g) (bend g).
+Definition chain (l : list link) u := carried (map (fun g => (the g, value g u)) l).
 
-(* ---- what is known of a value, or of a point: it is at most `most`, its first derivative `fast`, its second `bend` *)
-Record bounds := mkBounds { most : R; fast : R; bend : R }.
-Definition inside y b := within y (most b) (fast b) (bend b).
-Definition takes q m := exists q1 q2, (forall u, is_derive q u (q1 u)) /\ (forall u, is_derive q1 u (q2 u)) /\
-  forall u, 0 <= u <= 1 -> Rabs (q u) <= most m /\ Rabs (q1 u) <= fast m /\ Rabs (q2 u) <= bend m.
+(* The law, THE STRAY in the head of nsvcd_verify_robot.h; `out` is the part of the chain that is outside of a joint, and what is
+   carried is never farther than L from the last link's origin. `rate`: the sum of V_k L_k; `stray`: the sum that bounds |y''| *)
+Fixpoint reaches l L := match l with
+  | [] => L | g :: out => reaches out L + norm (offset (the g)) + (if slides (the g) then most g else 0) end.
+Definition arm g out L := if slides (the g) then 1 else reaches out L.
+Fixpoint rate l L := match l with [] => 0 | g :: out => rate out L + speed g * arm g out L end.
+Fixpoint stray l L := match l with
+  | [] => 0
+  | g :: out => stray out L + bend g * arm g out L +
+      (if slides (the g) then 0 else speed g * (2 * rate out L + speed g * arm g out L)) end.
 
-(* the loop of verify__part_deviation: from the bounds of a point, those of it carried by one joint more. There `most` is
-   reach + r, `fast` outer[0] + outer[1] r, and an eighth of `bend` deviation[0] + deviation[1] r *)
-Definition carried_by j m b := let arm := if slides j then 1 else most b in
-  mkBounds (most b + norm (offset j) + if slides j then most m else 0) (fast b + fast m * arm)
-    (bend b + bend m * arm + if slides j then 0 else fast m * (2 * fast b + fast m * arm)).
-
-Lemma norm_times k v : norm (vscale k v) = Rabs k * norm v.
+Lemma unit_axis_unit j : well_made j -> dot (unit_axis j) (unit_axis j) = 1.
 Proof.
-  unfold norm. replace (dot (vscale k v) (vscale k v)) with (Rsqr k * dot v v) by (unfold Rsqr, dot, vscale; simpl; ring).
-  rewrite sqrt_mult, sqrt_Rsqr_abs by (apply Rle_0_sqr || apply dot_pos). reflexivity.
+  intros [_ A]. unfold unit_axis. replace (dot _ _) with (/ norm (axis j) * / norm (axis j) * dot (axis j) (axis j))
+    by (unfold dot, vscale; simpl; ring).
+  replace (dot (axis j) (axis j)) with (norm (axis j) * norm (axis j)) by (apply sqrt_sqrt, dot_pos). field. lra.
 Qed.
-Lemma norm_rot q v : qdot q q = 1 -> norm (rot q v) = norm v.
-Proof. intros Q. rewrite rot_unit, turned_norm, Q by exact Q. ring. Qed.
-Lemma norm_unit a : is_unit a -> norm a = 1.
-Proof. unfold is_unit, norm. intros ->. apply sqrt_1. Qed.
-Lemma norm_cross_unit a v : is_unit a -> norm (cross a v) <= norm v.
-Proof. intros U. pose proof (cross_norm a v) as C. rewrite (norm_unit a U) in C. lra. Qed.
-
-Lemma joint_carries j q m y b : sound_joint j -> takes q m -> inside y b ->
-  inside (fun u => moved j (q u) (y u)) (carried_by j m b).
+Lemma tame_chain l y L : List.Forall ok l -> norm y <= L -> tame (fun u => chain l u y) (reaches l L) (rate l L) (stray l L).
 Proof.
-  intros (U & F) (q1 & q2 & Q1 & Q2 & QB) (y1 & y2 & Y1 & Y2 & YB). unfold inside, within, carried_by, moved. cbn [most fast bend].
-  set (a := axis j) in *. destruct (slides j) eqn:S.
-  - exists (fun u => rot (frame j) (vadd (y1 u) (vscale (q1 u) a))), (fun u => rot (frame j) (vadd (y2 u) (vscale (q2 u) a))).
-    assert (D : forall f g, (forall u, is_derive f u (g u)) -> forall u, deriveV (fun v => vscale (f v) a) u (vscale (g u) a)).
-    { intros f g D u. eapply deriveV_eq; [apply (deriveV_scale f (g u) (fun _ => a) u (mkV 0 0 0)); [apply D|apply deriveV_const]|reflexivity|].
-      apply V_eq; unfold vadd, vscale; simpl; ring. }
-    split; [|split].
-    + intros u. eapply deriveV_eq; [apply deriveV_plus; [apply deriveV_rot, deriveV_plus; [apply Y1|apply (D q q1 Q1)]|apply deriveV_const]|reflexivity|].
-      apply V_eq; unfold vadd; simpl; ring.
-    + intros u. apply deriveV_rot, deriveV_plus; [apply Y2|apply (D q1 q2 Q2)].
-    + intros u I. specialize (QB u I). specialize (YB u I).
-      assert (N : forall v k, norm (vadd v (vscale k a)) <= norm v + Rabs k).
-      { intros v k. eapply Rle_trans; [apply norm_vadd|]. rewrite norm_times, (norm_unit a U). lra. }
-      rewrite !norm_rot by exact F. pose proof (N (y u) (q u)). pose proof (N (y1 u) (q1 u)). pose proof (N (y2 u) (q2 u)).
-      pose proof (norm_vadd (rot (frame j) (vadd (y u) (vscale (q u) a))) (offset j)) as O. rewrite norm_rot in O by exact F. lra.
-  - set (z := fun u => vadd (y1 u) (vscale (q1 u) (cross a (y u)))).
-    set (z1 := fun u => vadd (y2 u) (vadd (vscale (q2 u) (cross a (y u))) (vscale (q1 u) (cross a (y1 u))))).
-    assert (Z1 : forall u, deriveV z u (z1 u)).
-    { intros u. apply deriveV_plus; [apply Y2|]. apply deriveV_scale; [apply Q2|apply deriveV_cross, Y1]. }
-    exists (fun u => rot (frame j) (turn a (q u) (z u))),
-      (fun u => rot (frame j) (turn a (q u) (vadd (z1 u) (vscale (q1 u) (cross a (z u)))))).
-    split; [|split].
-    + intros u. eapply deriveV_eq; [apply deriveV_plus; [apply deriveV_rot, turn_derive; [exact U|apply Q1|apply Y1]|apply deriveV_const]|reflexivity|].
-      fold (z u). apply V_eq; unfold vadd; simpl; ring.
-    + intros u. apply deriveV_rot, turn_derive; [exact U|apply Q1|apply Z1].
-    + intros u I. specialize (QB u I). specialize (YB u I). destruct QB as (_ & V1 & V2), YB as (L & W & B).
-      assert (N : forall k v K M, Rabs k <= K -> norm v <= M -> norm (vscale k (cross a v)) <= K * M).
-      { intros k v K M HK HM. rewrite norm_times. pose proof (norm_cross_unit a v U).
-        apply Rmult_le_compat; [apply Rabs_pos|apply norm_pos|exact HK|lra]. }
-      assert (Z : norm (z u) <= fast b + fast m * most b).
-      { eapply Rle_trans; [apply norm_vadd|]. pose proof (N _ _ _ _ V1 L). lra. }
-      rewrite !norm_rot, !turn_norm by (exact F || exact U). split; [|split].
-      * pose proof (norm_vadd (rot (frame j) (turn a (q u) (y u))) (offset j)) as O.
-        rewrite norm_rot, turn_norm in O by (exact F || exact U). lra.
-      * exact Z.
-      * eapply Rle_trans; [apply norm_vadd|]. pose proof (N _ _ _ _ V1 Z).
-        pose proof (norm_vadd (y2 u) (vadd (vscale (q2 u) (cross a (y u))) (vscale (q1 u) (cross a (y1 u))))).
-        pose proof (norm_vadd (vscale (q2 u) (cross a (y u))) (vscale (q1 u) (cross a (y1 u)))).
-        pose proof (N _ _ _ _ V2 L). pose proof (N _ _ _ _ V1 W). unfold z1. lra.
+  intros F H. induction F as [|g out [O T] F IH]; simpl.
+  - exact (tame_const y L H).
+  - pose proof (unit_axis_unit _ O) as U. destruct O as [O _]. unfold arm, chain, carried, carry. simpl.
+    destruct (slides (the g)).
+    + pose proof (tame_frame _ (offset (the g)) _ _ _ _ O (tame_slide _ _ _ _ _ _ _ _ _ U T IH)) as X.
+      rewrite !Rmult_1_r, Rplus_0_r. rewrite Rplus_assoc, (Rplus_comm (norm _)), <- Rplus_assoc. exact X.
+    + pose proof (tame_frame _ (offset (the g)) _ _ _ _ O (tame_turn _ _ _ _ _ _ _ _ _ U T IH)) as X.
+      rewrite Rplus_0_r. exact X.
 Qed.
 
-(* ---- a chain, from the link towards the base: joints, each with the n + 1 points of its value *)
-Definition chain := list (joint * (nat -> R)).
-Fixpoint carried n (js : chain) (x : V) u := match js with
-  | [] => x
-  | (j, p) :: js => carried n js (moved j (bezier n p u) x) u end.
-Fixpoint largest n (p : nat -> R) := match n with O => Rabs (p O) | S m => Rmax (Rabs (p O)) (largest m (fun i => p (S i))) end.
-Definition bounds_of n p := mkBounds (largest n p) (INR n * largest (pred n) (steps p))
-  (INR n * INR (pred n) * largest (pred (pred n)) (steps (steps p))).
-Fixpoint law n (js : chain) b := match js with
-  | [] => b
-  | (j, p) :: js => law n js (carried_by j (bounds_of n p) b) end.
-Definition sound_chain (js : chain) := List.Forall (fun jp => sound_joint (fst jp)) js.
-
-Lemma largest_ok n : forall p i, (i <= n)%nat -> Rabs (p i) <= largest n p.
+(* ---- a curve whose bend is B at most leaves its chord by an eighth of that *)
+Lemma tame_above y L W B n u : tame y L W B -> 0 <= u <= 1 ->
+  (1 - u) * dot n (y 0) + u * dot n (y 1) - norm n * (B / 8) <= dot n (y u).
 Proof.
-  induction n; intros p i L; cbn [largest]; [assert (i = O) as -> by lia; apply Rle_refl|].
-  destruct i; [apply Rmax_l|]. eapply Rle_trans; [apply (IHn (fun i => p (S i)) i); lia|apply Rmax_r].
+  intros (y1 & y2 & Y) I. set (f := fun v => dot n (y v)). set (f1 := fun v => dot n (y1 v)). set (K := norm n * B).
+  assert (P : 0 <= K / 2 * u * (1 - u) + (f u - ((1 - u) * f 0 + u * f 1))).
+  { apply (concave_above (fun v => K / 2 * v * (1 - v) + (f v - ((1 - v) * f 0 + v * f 1)))
+      (fun v => K / 2 * (1 - 2 * v) + (f1 v - (f 1 - f 0))) (fun v => dot n (y2 v) - K) 0 1); auto; try (field; fail).
+    - intros v J. destruct (Y v J) as (Y1 & _). pose proof (derives_dot n _ _ _ Y1) as D. fold f in D.
+      assert (D1 : Derive (fun v => f v) v = f1 v) by (apply is_derive_unique, D).
+      apply is_derive_Reals. generalize (f 0) (f 1). intros. auto_derive; [exists (f1 v); exact D|rewrite D1; field].
+    - intros v J. destruct (Y v J) as (_ & Y2 & _). pose proof (derives_dot n _ _ _ Y2) as D. fold f1 in D.
+      assert (D1 : Derive (fun v => f1 v) v = dot n (y2 v)) by (apply is_derive_unique, D).
+      apply is_derive_Reals. generalize (f 0) (f 1). intros. auto_derive; [eexists; exact D|rewrite D1; field].
+    - intros v J. destruct (Y v J) as (_ & _ & _ & _ & Y2). pose proof (cauchy n (y2 v)) as C.
+      pose proof (Rle_abs (dot n (y2 v))). pose proof (norm_pos n). unfold K. nra. }
+  assert (0 <= K).
+  { destruct (Y u I) as (_ & _ & _ & _ & Y2). pose proof (norm_pos (y2 u)). apply Rmult_le_pos; [apply norm_pos|lra]. }
+  unfold f in P. replace (norm n * (B / 8)) with (K / 8) by (unfold K; field). pose proof (pow2_ge_0 (2 * u - 1)). nra.
 Qed.
-Lemma bezier_takes n p : takes (bezier n p) (bounds_of n p).
+Lemma tame_chord y L W B n u : tame y L W B -> 0 <= u <= 1 ->
+  Rabs (dot n (y u) - ((1 - u) * dot n (y 0) + u * dot n (y 1))) <= norm n * (B / 8).
 Proof.
-  exists (fun u => INR n * bezier (pred n) (steps p) u), (fun u => INR n * (INR (pred n) * bezier (pred (pred n)) (steps (steps p)) u)).
-  split; [apply bezier_derive|split].
-  - intros u. apply (is_derive_scal (bezier (pred n) (steps p)) u (INR n)), bezier_derive.
-  - intros u I. cbn [most fast bend bounds_of]. rewrite !Rabs_mult, !(Rabs_pos_eq (INR _)) by apply pos_INR.
-    assert (B : forall m q, Rabs (bezier m q u) <= largest m q) by (intros; apply bezier_within; [exact I|apply largest_ok]).
-    split; [apply B|split; [apply Rmult_le_compat_l; [apply pos_INR|apply B]|]].
-    rewrite Rmult_assoc. repeat (apply Rmult_le_compat_l; [apply pos_INR|]). apply B.
-Qed.
-Lemma chain_carries n js : forall y b, sound_chain js -> inside y b -> inside (fun u => carried n js (y u) u) (law n js b).
-Proof.
-  induction js as [|[j p] js IH]; intros y b S Y; cbn [carried law]; [exact Y|]. inversion S as [|? ? Sj Sjs]; subst.
-  apply (IH (fun u => moved j (bezier n p u) (y u))); [exact Sjs|]. apply joint_carries; [exact Sj|apply bezier_takes|exact Y].
+  intros T I. pose proof (tame_above y L W B n u T I) as A. pose proof (tame_above y L W B (vscale (-1) n) u T I) as M.
+  assert (D : forall v, dot (vscale (-1) n) v = - dot n v) by (intros; unfold dot, vscale; simpl; ring).
+  assert (N : norm (vscale (-1) n) = norm n) by (unfold norm; f_equal; unfold dot, vscale; simpl; ring).
+  rewrite !D, N in M. apply Rabs_le. lra.
 Qed.
 
-(* THE LAW. A point of a link, no farther than L from the link's origin, leaves its chord from u = 0 to 1 along a direction n by
-   no more than an eighth of the chain's bend *)
-Theorem link_leaves_chord n js x L d u : sound_chain js -> norm x <= L -> 0 <= u <= 1 ->
-  (1 - u) * dot d (carried n js x 0) + u * dot d (carried n js x 1) - norm d * (bend (law n js (mkBounds L 0 0)) / 8)
-  <= dot d (carried n js x u).
+(* ---- THE LAW. A point x of a part, which is on the last link: scaled by s, turned by q, put at p. u: the stretch's share *)
+Definition on_link s q p x := vadd (vscale s (rot q x)) p.
+Lemma on_link_norm s q p x : 0 <= s -> 0 < qdot q q -> norm (on_link s q p x) <= norm p + s * norm x.
 Proof.
-  intros S X U. assert (I : inside (fun _ => x) (mkBounds L 0 0)).
-  { exists (fun _ => mkV 0 0 0), (fun _ => mkV 0 0 0). split; [|split]; [intros; apply deriveV_const|intros; apply deriveV_const|].
-    intros _ _. cbn [most fast bend]. replace (norm (mkV 0 0 0)) with 0; [lra|].
-    unfold norm, dot; simpl. rewrite !Rmult_0_l, !Rplus_0_l. symmetry. apply sqrt_0. }
-  pose proof (within_chord _ _ _ _ d u (chain_carries n js _ _ S I) U). lra.
+  intros S Q. rewrite Rplus_comm. apply norm_sum; [|apply Rle_refl]. rewrite norm_vscale, norm_rot by auto. apply Rle_refl.
+Qed.
+Theorem chain_leaves_chord l s q p x n u : List.Forall ok l -> 0 <= s -> 0 < qdot q q -> 0 <= u <= 1 ->
+  let f v := dot n (chain l v (on_link s q p x)) in
+  Rabs (f u - ((1 - u) * f 0 + u * f 1)) <= norm n / 8 * stray l (norm p + s * norm x).
+Proof.
+  intros F S Q I f. replace (norm n / 8 * _) with (norm n * (stray l (norm p + s * norm x) / 8)) by field.
+  exact (tame_chord _ _ _ _ n u (tame_chain l _ _ F (on_link_norm s q p x S Q)) I).
 Qed.
 
-(* the same from one share of a piece to another: the joints' points are those of the part between *)
-Definition stretch n from to (js : chain) : chain := map (fun jp => (fst jp, part n from to (snd jp))) js.
-Lemma carried_stretch n from to js : forall x u, to <> 0 ->
-  carried n (stretch n from to js) x u = carried n js x (from + (to - from) * u).
+(* ---- the C's loop, verify__part_deviation, from the part's link towards the base: one round of it, and all. Metres, and what
+   r, the largest s |x|, is multiplied by. Its 0.1250001 is an eighth, and a bit *)
+Definition eighth := 1250001 / 10000000.
+Record sums := mkSums { reach : R; outer0 : R; outer1 : R; deviation0 : R; deviation1 : R }.
+Definition round g z :=
+  let arm0 := if slides (the g) then 1 else reach z in
+  let arm1 := if slides (the g) then 0 else 1 in
+  mkSums (reach z + (norm (offset (the g)) + (if slides (the g) then most g else 0)))
+    (outer0 z + speed g * arm0) (outer1 z + speed g * arm1)
+    (deviation0 z + eighth * bend g * arm0 + (if slides (the g) then 0 else eighth * speed g * (2 * outer0 z + speed g * arm0)))
+    (deviation1 z + eighth * bend g * arm1 + (if slides (the g) then 0 else eighth * speed g * (2 * outer1 z + speed g * arm1))).
+Definition loop l p := fold_right round (mkSums (norm p) 0 0 0 0) l.
+Lemma loop_is_law l p r : reaches l (norm p + r) = reach (loop l p) + r /\
+  rate l (norm p + r) = outer0 (loop l p) + outer1 (loop l p) * r /\
+  eighth * stray l (norm p + r) = deviation0 (loop l p) + deviation1 (loop l p) * r.
 Proof.
-  induction js as [|[j p] js IH]; intros x u T; cbn [stretch map carried fst snd]; [reflexivity|].
-  rewrite bezier_part by exact T. apply IH, T.
-Qed.
-Lemma sound_stretch n from to js : sound_chain js -> sound_chain (stretch n from to js).
-Proof. unfold sound_chain, stretch. rewrite Forall_map. exact (fun S => S). Qed.
-Definition link_deviation n from to js L := bend (law n (stretch n from to js) (mkBounds L 0 0)) / 8.
-Theorem piece_leaves_chord n js x L d from to t : sound_chain js -> norm x <= L -> 0 <= from < to -> from <= t <= to ->
-  ((to - t) * dot d (carried n js x from) + (t - from) * dot d (carried n js x to)) / (to - from)
-    - norm d * link_deviation n from to js L <= dot d (carried n js x t).
-Proof.
-  intros S X F T. set (u := (t - from) / (to - from)).
-  assert (U : 0 <= u <= 1) by (unfold u; split; apply Rmult_le_reg_r with (to - from); unfold Rdiv; rewrite ?Rmult_assoc, ?Rinv_l; lra).
-  pose proof (link_leaves_chord n (stretch n from to js) x L d u (sound_stretch n from to js S) X U) as H.
-  rewrite !carried_stretch in H by lra.
-  replace (from + (to - from) * u) with t in H by (unfold u; field; lra).
-  replace (from + (to - from) * 0) with from in H by ring. replace (from + (to - from) * 1) with to in H by ring.
-  fold (link_deviation n from to js L) in H.
-  replace ((to - t) * dot d (carried n js x from) + _) with
-    ((to - from) * ((1 - u) * dot d (carried n js x from) + u * dot d (carried n js x to))) by (unfold u; field; lra).
-  unfold Rdiv. rewrite Rmult_comm, <- Rmult_assoc, Rinv_l, Rmult_1_l by lra. exact H.
+  induction l as [|g out (A & B & C)]; simpl; [repeat split; ring|].
+  unfold arm. destruct (slides (the g)); rewrite A, B, !Rmult_plus_distr_l, C; repeat split; ring.
 Qed.
 
-(* a plane that separates points of two links at two shares of a piece, by more than the clearance c and what both deviate,
-   separates them at all shares between. Both links follow the same joints' motion *)
-Theorem links_stay_apart n ja jb x y La Lb d c from to : sound_chain ja -> sound_chain jb -> norm x <= La -> norm y <= Lb ->
-  0 <= from < to ->
-  let least := norm d * (c + link_deviation n from to ja La + link_deviation n from to jb Lb) in
-  least < dot d (vsub (carried n ja x from) (carried n jb y from)) ->
-  least < dot d (vsub (carried n ja x to) (carried n jb y to)) ->
-  forall t, from <= t <= to -> c < norm (vsub (carried n ja x t) (carried n jb y t)).
+(* ---- THE MOTION. On a piece, from time b to e, joint values are Bezier curves of one degree n. A part: its joints with their
+   points, the one at its base first; its scale and its pose on the last link (nsvcd_verify_part, verify__part_place) *)
+Record part := mkPart { joints : list (joint * (nat -> R)); grown : R; posed : quat; put : V }.
+Definition fit m := List.Forall (fun g => well_made (fst g)) (joints m) /\ 0 <= grown m /\ 0 < qdot (posed m) (posed m).
+Definition where_is n b e m t x := carried (map (fun g => (fst g, bez n (snd g) ((t - b) / (e - b)))) (joints m))
+  (on_link (grown m) (posed m) (put m) x).
+
+(* as verify__curve and verify__part_deviation have it from t0 to t1: the points of that part of each curve, and what they say.
+   `o` times the largest of a curve's points is added to each for roundings: the C has 5e-13; here it is any from 0 on *)
+Definition measured o n b e t0 t1 (g : joint * (nat -> R)) :=
+  let to := (t1 - b) / (e - b) in let from := (t0 - b) / (e - b) / to in
+  let p := cut n from to (snd g) in let off := o * largest n (snd g) in
+  mkLink (fst g) (bez n p) (largest n p + off) (INR n * largest (pred n) (diff p) + off)
+    (INR n * INR (pred n) * largest (pred (pred n)) (diff (diff p)) + off).
+Definition strays o n b e t0 t1 m r :=
+  let z := loop (map (measured o n b e t0 t1) (joints m)) (put m) in deviation0 z + deviation1 z * r.
+
+Lemma measured_ok o n b e t0 t1 g : 0 <= o -> well_made (fst g) -> ok (measured o n b e t0 t1 g).
 Proof.
-  intros Sa Sb X Y F least H0 H1 t T.
-  assert (Sub : forall a b, dot d (vsub a b) = dot d a - dot d b) by (intros; unfold dot, vsub; simpl; ring).
-  assert (Neg : forall v, dot (vscale (-1) d) v = - dot d v) by (intros; unfold dot, vscale; simpl; ring).
-  pose proof (piece_leaves_chord n ja x La d from to t Sa X F T) as A.
-  pose proof (piece_leaves_chord n jb y Lb (vscale (-1) d) from to t Sb Y F T) as B.
-  rewrite !Neg, norm_times in B. replace (Rabs (-1)) with 1 in B by (rewrite Rabs_left; lra). rewrite Rmult_1_l in B. rewrite !Sub in *.
-  set (a0 := dot d (carried n ja x from)) in *. set (a1 := dot d (carried n ja x to)) in *.
-  set (b0 := dot d (carried n jb y from)) in *. set (b1 := dot d (carried n jb y to)) in *.
-  set (u := (t - from) / (to - from)).
-  assert (U : 0 <= u <= 1) by (unfold u; split; apply Rmult_le_reg_r with (to - from); unfold Rdiv; rewrite ?Rmult_assoc, ?Rinv_l; lra).
-  replace (((to - t) * a0 + (t - from) * a1) / (to - from)) with ((1 - u) * a0 + u * a1) in A by (unfold u; field; lra).
-  replace (((to - t) * - b0 + (t - from) * - b1) / (to - from)) with ((1 - u) * - b0 + u * - b1) in B by (unfold u; field; lra).
-  assert (M : norm d * c < dot d (carried n ja x t) - dot d (carried n jb y t)).
-  { assert (least < (1 - u) * (a0 - b0) + u * (a1 - b1)) by (destruct (Req_dec u 0) as [->|]; nra). unfold least in *. lra. }
-  pose proof (cauchy d (vsub (carried n ja x t) (carried n jb y t))) as K. rewrite Sub in K.
-  pose proof (Rle_abs (dot d (carried n ja x t) - dot d (carried n jb y t))). pose proof (norm_pos d). nra.
+  intros P W. split; [exact W|]. unfold measured. cbv zeta. cbn [value most speed bend].
+  assert (Off : 0 <= o * largest n (snd g)).
+  { apply Rmult_le_pos; [exact P|]. eapply Rle_trans; [apply Rabs_pos|apply (largest_is n (snd g) 0)]. apply Nat.le_0_l. }
+  assert (More : forall x y, x <= y -> x <= y + o * largest n (snd g)) by (intros; lra).
+  set (p := cut _ _ _ _). clearbody p. pose proof (pos_INR n) as N. pose proof (pos_INR (pred n)) as N'.
+  exists (fun u => INR n * bez (pred n) (diff p) u), (fun u => INR n * (INR (pred n) * bez (pred (pred n)) (diff (diff p)) u)).
+  intros u I. split; [apply bez_derives|]. split; [apply is_derive_scal, bez_derives|]. split; [apply More, bez_bounds, I|].
+  rewrite !Rabs_mult, (Rabs_pos_eq (INR n)), (Rabs_pos_eq (INR (pred n))) by auto. rewrite <- Rmult_assoc.
+  split; apply More, Rmult_le_compat_l; auto; try apply bez_bounds, I. apply Rmult_le_pos; auto.
+Qed.
+Lemma measured_all o n b e t0 t1 l : 0 <= o -> List.Forall (fun g => well_made (fst g)) l ->
+  List.Forall ok (map (measured o n b e t0 t1) l).
+Proof.
+  intros P F. apply Forall_forall. intros g H. apply in_map_iff in H. destruct H as (h & <- & H).
+  apply measured_ok; [exact P|]. rewrite Forall_forall in F. apply F, H.
+Qed.
+Lemma share_within t0 t1 t : t0 < t1 -> t0 <= t <= t1 -> 0 <= (t - t0) / (t1 - t0) <= 1.
+Proof.
+  intros L T. split; [apply Rmult_le_pos; [lra|apply Rlt_le, Rinv_0_lt_compat; lra]|].
+  apply Rmult_le_reg_r with (t1 - t0); [lra|]. unfold Rdiv. rewrite Rmult_assoc, Rinv_l by lra. lra.
+Qed.
+(* at a share of the stretch, a measured chain is where the part is *)
+Lemma measured_is o n b e t0 t1 m t x : b < e -> b <= t0 < t1 ->
+  chain (map (measured o n b e t0 t1) (joints m)) ((t - t0) / (t1 - t0)) (on_link (grown m) (posed m) (put m) x) =
+  where_is n b e m t x.
+Proof.
+  intros E I. unfold chain, where_is. rewrite map_map. f_equal. apply map_ext. intros g.
+  unfold measured. cbv zeta. cbn [the value]. f_equal. rewrite cut_is. f_equal. field. lra.
 Qed.
 
-(* verify__keeps: an axis of a link is turned as by a chain without offsets and slides, and leaves its chord by that chain's law,
-   where L is 1: deviation[1] of the C *)
-Definition directions (js : chain) : chain := map (fun jp => let j := fst jp in
-  (mkJoint false (axis j) (frame j) (mkV 0 0 0), if slides j then fun _ => 0 else snd jp)) js.
-Lemma bezier_0 n u : bezier n (fun _ => 0) u = 0.
-Proof. induction n; cbn [bezier]; [reflexivity|]. rewrite IHn. ring. Qed.
-Lemma carried_directions n js u : forall x y, vsub (carried n js x u) (carried n js y u) = carried n (directions js) (vsub x y) u.
+(* A point of a part leaves its chord from t0 to t1, which are in one piece, by `strays` at most along a direction v of length 1 *)
+Theorem motion_leaves_chord o n b e m t0 t1 t x r v : 0 <= o -> fit m -> norm (vscale (grown m) x) <= r ->
+  b <= t0 < t1 -> t1 <= e -> t0 <= t <= t1 ->
+  let f w := dot v (where_is n b e m w x) in
+  Rabs (f t - ((t1 - t) * f t0 + (t - t0) * f t1) / (t1 - t0)) <= norm v * strays o n b e t0 t1 m r.
 Proof.
-  induction js as [|[j p] js IH]; intros x y; cbn [directions map carried fst snd]; [reflexivity|]. rewrite IH. f_equal.
-  unfold moved. cbn [slides axis frame offset]. rewrite !rot_rows. destruct (slides j).
-  - rewrite bezier_0. apply V_eq; unfold turn, dot, vadd, vsub, vscale, cross; simpl; rewrite cos_0, sin_0; ring.
-  - apply V_eq; unfold turn, dot, vadd, vsub, vscale, cross; simpl; ring.
+  intros Po (F & G & Q) R I J T f. assert (E : b < e) by lra.
+  set (l := map (measured o n b e t0 t1) (joints m)). rewrite norm_vscale in R by auto.
+  assert (O : List.Forall ok l) by (apply measured_all; auto).
+  pose proof (share_within t0 t1 t ltac:(lra) T) as U.
+  assert (Y : norm (on_link (grown m) (posed m) (put m) x) <= norm (put m) + r)
+    by (pose proof (on_link_norm (grown m) (posed m) (put m) x G Q); lra).
+  pose proof (tame_chain l _ _ O Y) as Tm. pose proof (tame_chord _ _ _ _ v _ Tm U) as C.
+  pose proof (measured_is o n b e t0 t1 m t0 x E I) as M0. pose proof (measured_is o n b e t0 t1 m t1 x E I) as M1.
+  replace ((t0 - t0) / (t1 - t0)) with 0 in M0 by (field; lra). replace ((t1 - t0) / (t1 - t0)) with 1 in M1 by (field; lra).
+  cbv beta in C. unfold l in C. rewrite measured_is, M0, M1 in C by auto. fold l (f t) (f t0) (f t1) in C.
+  replace (((t1 - t) * f t0 + (t - t0) * f t1) / (t1 - t0)) with
+    ((1 - (t - t0) / (t1 - t0)) * f t0 + (t - t0) / (t1 - t0) * f t1) by (field; lra).
+  eapply Rle_trans; [exact C|]. apply Rmult_le_compat_l; [apply norm_pos|].
+  unfold strays. fold l. cbv zeta. destruct (loop_is_law l (put m) r) as (_ & _ & <-).
+  assert (S : 0 <= stray l (norm (put m) + r)).
+  { destruct Tm as (y1 & y2 & Y'). destruct (Y' 0 ltac:(lra)) as (_ & _ & _ & _ & B).
+    pose proof (norm_pos (y2 0)). lra. }
+  unfold eighth. lra.
 Qed.
 
-(* ---- do the words say what they should? The tip of an arm in a plane, its one joint turning; and a slide *)
-Example tip p u : carried 1 [(mkJoint false (mkV 0 0 1) (mkQ 0 0 0 1) (mkV 0 0 0), p)] (mkV 1 0 0) u =
-  mkV (cos (bezier 1 p u)) (sin (bezier 1 p u)) 0.
-Proof. apply V_eq; unfold carried, moved, rot, turned, turn, qdot, dot, cross, vadd, vscale; cbn -[bezier cos sin]; field. Qed.
-Example slide p u : carried 1 [(mkJoint true (mkV 0 0 1) (mkQ 0 0 0 1) (mkV 0 0 0), p)] (mkV 1 0 0) u = mkV 1 0 (bezier 1 p u).
-Proof. apply V_eq; unfold carried, moved, rot, turned, qdot, vadd, vscale; cbn -[bezier]; field. Qed.
+(* and an arm of 1 m that turns steadily from -h to h: its tip leaves its chord by 1 - cos h, and the law says h^2 / 2, and a bit *)
+Example arm_strays h : 0 <= h -> strays 0 1 0 1 0 1 (mkPart [(upright origin0, fun i => match i with O => - h | _ => h end)]
+  1 still (mkV 1 0 0)) 0 = eighth * (2 * h) ^ 2.
+Proof.
+  intros H. assert (S : norm (mkV 1 0 0) = 1).
+  { unfold norm, dot. simpl. replace (1 * 1 + 0 * 0 + 0 * 0) with 1 by ring. apply sqrt_1. }
+  unfold strays, loop, measured, round, cut, diff. simpl. rewrite S.
+  replace ((1 - 0) / (1 - 0)) with 1 by field. replace ((0 - 0) / (1 - 0) / 1) with 0 by field.
+  replace ((1 - 1) * - h + 1 * h - ((1 - 0) * - h + 0 * ((1 - 1) * - h + 1 * h))) with (2 * h) by ring.
+  rewrite (Rabs_pos_eq (2 * h)) by lra. ring.
+Qed.
+
+(* ---- nsvcd_verify's step for two parts of one motion, seen from one base: a plane of normal v that separates a point of each at
+   two instants of a piece, by more than the clearance and both deviations, separates them at all times between *)
+Theorem parts_apart o n b e ma mb t0 t1 x y rx ry v c : 0 <= o -> fit ma -> fit mb ->
+  norm (vscale (grown ma) x) <= rx -> norm (vscale (grown mb) y) <= ry -> b <= t0 < t1 -> t1 <= e ->
+  let least := norm v * c + (norm v * strays o n b e t0 t1 ma rx + norm v * strays o n b e t0 t1 mb ry) in
+  least < dot v (vsub (where_is n b e ma t0 x) (where_is n b e mb t0 y)) ->
+  least < dot v (vsub (where_is n b e ma t1 x) (where_is n b e mb t1 y)) ->
+  forall t, t0 <= t <= t1 -> c < norm (vsub (where_is n b e ma t x) (where_is n b e mb t y)).
+Proof.
+  intros Po Fa Fb Rx Ry I J least Hs He t T.
+  assert (Sub : forall p q, dot v (vsub p q) = dot v p - dot v q) by (intros; unfold dot, vsub; simpl; ring).
+  pose proof (motion_leaves_chord o n b e ma t0 t1 t x rx v Po Fa Rx I J T) as A.
+  pose proof (motion_leaves_chord o n b e mb t0 t1 t y ry v Po Fb Ry I J T) as B.
+  cbv beta zeta in A, B. apply Rabs_le_between in A. apply Rabs_le_between in B.
+  assert (Main : norm v * c < dot v (vsub (where_is n b e ma t x) (where_is n b e mb t y))).
+  { rewrite Sub in *. unfold least in *.
+    apply (chords_apart (fun w => dot v (where_is n b e ma w x)) (fun w => dot v (where_is n b e mb w y)) t0 t1 t
+      (norm v * strays o n b e t0 t1 ma rx) (norm v * strays o n b e t0 t1 mb ry)); auto; lra. }
+  pose proof (cauchy v (vsub (where_is n b e ma t x) (where_is n b e mb t y))) as X.
+  pose proof (Rle_abs (dot v (vsub (where_is n b e ma t x) (where_is n b e mb t y)))). pose proof (norm_pos v).
+  set (d := norm (vsub _ _)) in *. nra.
+Qed.
+
+(* ---- verify__keeps: an axis of a part only turns. It leaves its chord by deviation[1], of which the rest is no part *)
+Definition aim j q a := rot (frame j) (if slides j then a else rot (turn (unit_axis j) q) a).
+Definition aimed (l : list (joint * R)) a := fold_right (fun g a => aim (fst g) (snd g) a) a l.
+Definition points_to n b e m t a := aimed (map (fun g => (fst g, bez n (snd g) ((t - b) / (e - b)))) (joints m)) (rot (posed m) a).
+Lemma carried_aimed l x y : vsub (carried l x) (carried l y) = aimed l (vsub x y).
+Proof.
+  assert (S : forall q v w, vsub (rot q v) (rot q w) = rot q (vsub v w))
+    by (intros; unfold rot; apply V_eq; unfold vsub, vscale, turned; simpl; ring).
+  assert (O : forall v w o, vsub (vadd v o) (vadd w o) = vsub v w)
+    by (intros; apply V_eq; unfold vsub, vadd; simpl; ring).
+  induction l as [|[j q] l IH]; [reflexivity|]. simpl. rewrite <- IH. unfold carry, aim. rewrite O, S. f_equal.
+  destruct (slides j); [apply O|apply S].
+Qed.
+Lemma tame_aimed l p a : List.Forall ok l -> norm a <= 1 -> exists B, eighth * B = deviation1 (loop l p) /\
+  tame (fun u => aimed (map (fun g => (the g, value g u)) l) a) 1 (outer1 (loop l p)) B.
+Proof.
+  assert (F0 : forall q y W B, 0 < qdot q q -> tame y 1 W B -> tame (fun u => rot q (y u)) 1 W B).
+  { intros q y W B Q T. pose proof (tame_frame q (mkV 0 0 0) y 1 W B Q T) as X. rewrite norm_0, Rplus_0_r in X.
+    eapply tame_ext; [|exact X]. intros u. apply V_eq; unfold vadd; simpl; ring. }
+  intros F H. induction F as [|g out [O T] F (B & E & IH)]; simpl.
+  - exists 0. split; [ring|exact (tame_const a 1 H)].
+  - pose proof (unit_axis_unit _ O) as U. destruct O as [O _]. unfold aim. destruct (slides (the g)).
+    + exists B. split; [rewrite E; ring|]. rewrite Rmult_0_r, Rplus_0_r. exact (F0 _ _ _ _ O IH).
+    + exists (B + bend g * 1 + speed g * (2 * outer1 (loop out p) + speed g * 1)). split.
+      * rewrite !Rmult_plus_distr_l, E. ring.
+      * exact (F0 _ _ _ _ O (tame_turn _ _ _ _ _ _ _ _ _ U T IH)).
+Qed.
+(* so where it is within an angle of a direction v at two instants, by deviation[1] and more, it is so at all times between *)
+Theorem axis_keeps o n b e m t0 t1 t a v least : 0 <= o -> fit m -> norm a <= 1 -> norm v <= 1 ->
+  b <= t0 < t1 -> t1 <= e -> t0 <= t <= t1 ->
+  let most1 := deviation1 (loop (map (measured o n b e t0 t1) (joints m)) (put m)) in
+  least + most1 <= dot v (points_to n b e m t0 a) -> least + most1 <= dot v (points_to n b e m t1 a) ->
+  least <= dot v (points_to n b e m t a).
+Proof.
+  intros Po (F & _ & Q) Ha Hv I J T most1 H0 H1. assert (E : b < e) by lra. set (l := map _ (joints m)) in most1.
+  assert (O : List.Forall ok l) by (apply measured_all; auto).
+  destruct (tame_aimed l (put m) (rot (posed m) a) O) as (B & EB & Tm); [rewrite norm_rot; auto|].
+  assert (M : forall w, aimed (map (fun g => (the g, value g ((w - t0) / (t1 - t0)))) l) (rot (posed m) a) = points_to n b e m w a).
+  { intros w. unfold points_to, l. rewrite map_map. f_equal. apply map_ext. intros g.
+    unfold measured. cbv zeta. cbn [the value]. f_equal. rewrite cut_is. f_equal. field. lra. }
+  pose proof (tame_above _ _ _ _ v _ Tm (share_within t0 t1 t ltac:(lra) T)) as C. cbv beta in C.
+  pose proof (M t0) as M0. pose proof (M t1) as M1.
+  replace ((t0 - t0) / (t1 - t0)) with 0 in M0 by (field; lra). replace ((t1 - t0) / (t1 - t0)) with 1 in M1 by (field; lra).
+  rewrite M, M0, M1 in C. pose proof (share_within t0 t1 t ltac:(lra) T) as U. set (u := (t - t0) / (t1 - t0)) in *.
+  assert (S : 0 <= B).
+  { destruct Tm as (y1 & y2 & Y'). destruct (Y' 0 ltac:(lra)) as (_ & _ & _ & _ & X). pose proof (norm_pos (y2 0)). lra. }
+  fold most1 in EB. pose proof (norm_pos v). assert (norm v * (B / 8) <= most1) by (rewrite <- EB; unfold eighth; nra). nra.
+Qed.

@@ -182,15 +182,15 @@ Qed.
 
 (* ---- what leaves its chord *)
 Lemma concave_above (h h1 h2 : R -> R) a b :
-  (forall v, derivable_pt_lim h v (h1 v)) -> (forall v, derivable_pt_lim h1 v (h2 v)) ->
+  (forall v, a <= v <= b -> derivable_pt_lim h v (h1 v)) -> (forall v, a <= v <= b -> derivable_pt_lim h1 v (h2 v)) ->
   (forall v, a <= v <= b -> h2 v <= 0) -> h a = 0 -> h b = 0 -> forall v, a <= v <= b -> 0 <= h v.
 Proof.
   intros D1 D2 N A B v [L U].
   destruct (Req_dec v a) as [->|Na]; [lra|]. destruct (Req_dec v b) as [->|Nb]; [lra|].
-  destruct (MVT_cor2 h h1 a v) as (c1 & E1 & I1); [lra|auto|].
-  destruct (MVT_cor2 h h1 v b) as (c2 & E2 & I2); [lra|auto|].
-  destruct (MVT_cor2 h1 h2 c1 c2) as (c3 & E3 & I3); [lra|auto|].
-  specialize (N c3 ltac:(lra)). assert (h1 c2 <= h1 c1) by nra.
+  destruct (MVT_cor2 h h1 a v) as (c1 & E1 & I1); [lra|intros; apply D1; lra|].
+  destruct (MVT_cor2 h h1 v b) as (c2 & E2 & I2); [lra|intros; apply D1; lra|].
+  destruct (MVT_cor2 h1 h2 c1 c2) as (c3 & E3 & I3); [lra|intros; apply D2; lra|].
+  assert (h2 c3 <= 0) by (apply N; lra). assert (h1 c2 <= h1 c1) by nra.
   destruct (Rle_dec 0 (h v)) as [|M]; [auto|exfalso].
   assert (h1 c1 < 0) by nra. assert (0 < h1 c2) by nra. lra.
 Qed.
@@ -211,9 +211,9 @@ Proof.
   set (h2 := fun v => - w ^ 2 * (C * cos (w * v) + D * sin (w * v)) - K * w ^ 2).
   assert (P : 0 <= h u).
   { apply (concave_above h h1 h2 u0 u1); auto.
-    - intros v. apply is_derive_Reals. unfold h, h1, chord.
+    - intros v _. apply is_derive_Reals. unfold h, h1, chord.
       generalize (f u0) (f u1); intros; unfold f. auto_derive; [lra|field; lra].
-    - intros v. apply is_derive_Reals. unfold h1, h2.
+    - intros v _. apply is_derive_Reals. unfold h1, h2.
       generalize (f u0) (f u1); intros. auto_derive; [auto|field].
     - intros v _. unfold h2. specialize (H' (w * v)). pose proof (pow2_ge_0 w). nra.
     - unfold h, chord. field. lra.
@@ -412,6 +412,21 @@ Proof.
     apply Rmult_le_pos; auto.
 Qed.
 
+(* two heights that leave their chords by da and db at most are apart between two instants, if they are so then by both more *)
+Lemma chords_apart (f g : R -> R) s e t da db c : s < e -> s <= t <= e ->
+  ((e - t) * f s + (t - s) * f e) / (e - s) - da <= f t ->
+  ((e - t) * - g s + (t - s) * - g e) / (e - s) - db <= - g t ->
+  c + (da + db) < f s - g s -> c + (da + db) < f e - g e -> c < f t - g t.
+Proof.
+  intros L I A B Hs He.
+  assert (C : c + (da + db) < ((e - t) * (f s - g s) + (t - s) * (f e - g e)) / (e - s)).
+  { apply Rmult_lt_reg_r with (e - s); [lra|]. unfold Rdiv. rewrite Rmult_assoc, Rinv_l by lra.
+    rewrite Rmult_1_r. destruct (Req_dec t s) as [->|]; nra. }
+  replace (((e - t) * (f s - g s) + (t - s) * (f e - g e)) / (e - s)) with
+    (((e - t) * f s + (t - s) * f e) / (e - s) + ((e - t) * - g s + (t - s) * - g e) / (e - s)) in C
+    by (field; lra). lra.
+Qed.
+
 (* ---- a plane of normal n at two instants separates two points at all times between, by more than c *)
 Theorem plane_separates ma mb n c s e x y :
   well_formed ma -> well_formed mb -> s <= e ->
@@ -438,15 +453,7 @@ Proof.
       { unfold deviation, across. do 3 f_equal.
         unfold norm; f_equal; unfold dot, cross, vscale; simpl; ring. }
       rewrite !M, Nm in B. rewrite Sub in *.
-      set (as_ := dot n (place ma s x)) in *. set (ae := dot n (place ma e x)) in *.
-      set (bs := dot n (place mb s y)) in *. set (be := dot n (place mb e y)) in *.
-      assert (C : least < ((e - t) * (as_ - bs) + (t - s) * (ae - be)) / (e - s)).
-      { apply Rmult_lt_reg_r with (e - s); [lra|]. unfold Rdiv. rewrite Rmult_assoc, Rinv_l by lra.
-        rewrite Rmult_1_r. destruct (Req_dec t s) as [->|]; nra. }
-      replace (((e - t) * (as_ - bs) + (t - s) * (ae - be)) / (e - s)) with
-        (((e - t) * as_ + (t - s) * ae) / (e - s) + ((e - t) * - bs + (t - s) * - be) / (e - s)) in C
-        by (field; lra).
-      unfold least in C. lra. }
+      exact (chords_apart (fun v => dot n (place ma v x)) (fun v => dot n (place mb v y)) s e t _ _ _ L I A B Hs He). }
   pose proof (cauchy n (vsub (place ma t x) (place mb t y))) as X.
   pose proof (Rle_abs (dot n (vsub (place ma t x) (place mb t y)))). pose proof (norm_pos n).
   split; [exact Main|]. set (d := norm (vsub _ _)) in *. nra.

@@ -16,7 +16,8 @@
 // if the inner one turns, 0 if it slides; that by q_j twice no more than L_j, if it turns. So
 //   |y''| <= sum over j of A_j L_j + V_j (2 sum over outer k of V_k L_k + V_j L_j),
 // the second term only for joints that turn, and a chord is left by an eighth of it. L_j is the sum
-// of what stands between joint j and y: offsets of joints, slides, |p| and |s x|.
+// of what stands between joint j and y: offsets of joints, slides, |p| and |s x|. formal/Chains.v
+// proves it, without the roundings.
 //
 // ROUNDINGS. Ends of pieces and shares of a piece are rounded: that changes the clock of both parts
 // alike, since they share one motion. V, A and the bound of a slide come from the points of a curve
