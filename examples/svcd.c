@@ -34,6 +34,12 @@ static const option options[] = {
     {"--to", SWEEP, OPTION_TEXT, AT(to), 0, 0, NULL, "POSE", "the same at t = 1"},
     {"--rotate", SWEEP, OPTION_TEXT, AT(rotate), 0, 0, NULL, "AXIS,DEG",
      "A turns by this on its way, about its origin: z,90"},
+    {"--poses", SWEEP, OPTION_TEXT, AT(poses), 0, 0, NULL, "TABLE",
+     "the poses of A, a line each: [t] x y z [qx qy qz qw], between blanks or commas; instead of "
+     "--from, --to and --rotate"},
+    {"--all", SWEEP, OPTION_FLAG, AT(all), 0, 0, NULL, NULL,
+     "with --poses: lists all lines of the table between which there is a contact, and the first "
+     "contact there"},
     {"--scale", ENCODE | INFO | SWEEP, OPTION_TEXT, AT(scale), 0, 0, NULL, "S[,S]",
      "converts to metres: 0.001 for millimetres; with two files, one for both or one for each (1)"},
     {"--recentre", ENCODE | INFO | SWEEP, OPTION_FLAG, AT(recentre), 0, 0, NULL, NULL,

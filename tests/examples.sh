@@ -356,6 +356,53 @@ verdict '^hit at t = 0.0000' "$dir/cube.obj" "$dir/cube.obj" --from 0,0,1 --to 0
 # Faces that slide along each other at 30 um.
 verdict '^free' "$dir/cube.obj" "$dir/cube.obj" \
   --from -3,0,1.00003 --to 3,0,1.00003 --rotate z,30
+# By a table of poses: the same answer as by --from and --to; its own times, and lines; all contacts, each as a sweep of that
+# stretch says.
+printf '.25 .25 5\n.25 .25 -5\n' >"$dir/two.csv"
+verdict '^hit at t = 0.40[01][0-9]* (after line 1), the first contact: proven' "$dir/cube.obj" "$dir/cube.obj" --scale .5,1 --poses "$dir/two.csv"
+printf 't, x,y,z, qx,qy,qz,qw\n10,2,0,5,0,0,0,1 # a\n\n20;2;0;-5;0;0;0;1\n30,.25,.25,-5,0,0,0,1\n70,.25,.25,5,0,0,0,1\n72,2,0,5,0,0,0,1\n74,.25,.25,5,0,0,0,1\n76,.25,.25,1,0,0,0,1\n78,.25,.25,.9,0,0,0,1\n' >"$dir/table.csv"
+verdict '^hit at t = 48[.0-9]* (after line 5), the first contact: proven' "$dir/cube.obj" "$dir/cube.obj" --scale .5,1 --poses "$dir/table.csv" --all
+line '^contact *lines 5 to 6, first at t = 48[.0-9]* (after line 5): '
+line '^contact *lines 8 to 10, first at t = 7[56][.0-9]* (after line [89]): '
+line '^stretches *7: 4 free, 3 with a contact, 0 undecided$'
+test "$(grep -c ^contact "$dir/out")" = 2 || fail "all contacts: $(cat "$dir/out")"
+verdict '^hit' "$dir/cube.obj" "$dir/cube.obj" --scale .5,1 --poses "$dir/table.csv" --all --picture "$dir/table.svg" --clearance .1
+expect 2 'needs --poses' build/svcd sweep "$dir/cube.obj" "$dir/cube.obj" --all
+expect 2 'not together with --from' build/svcd sweep "$dir/cube.obj" "$dir/cube.obj" --poses "$dir/table.csv" --to 0,0,0
+expect 2 'not of a table with times' build/svcd sweep "$dir/cube.obj" "$dir/cube.obj" --poses "$dir/table.csv" --certificate "$dir/x.cert"
+# table REASON TEXT: refused.
+table() {
+  printf "$2" >"$dir/bad.csv"
+  expect 1 "$1" build/svcd sweep "$dir/cube.obj" "$dir/cube.obj" --poses "$dir/bad.csv"
+}
+table 'bad.csv: no poses' 'x y z\n'
+table 'bad.csv:2: not a finite number' '0 0 0\n0 0 nan\n'
+table 'bad.csv:2: expected .t. x y z' '0 0 0\n0 0 0 1\n'
+table 'bad.csv:1: expected .t. x y z' '0 0\n'
+table 'bad.csv:3: times do not rise' '0 0 0 1\n1 0 0 1\n1 0 0 2\n'
+table 'line 2: its time is too near' '0 0 0 1\n1 0 0 1\n1e9 0 0 2\n'
+table 'bad.csv:1: the quaternion is not of unit length' '0 0 0 1 0 0 1\n'
+table 'bad.csv:1: a coordinate is out of range' '0 0 2e6\n'
+# Of G-code: lines, arcs by their centre and by their radius, a full circle, inches; and what it refuses.
+printf 'G21 G90 G17 (mm)\nG0 X0 Y0 Z5\nG1 Z0 F300\nG2 X10 Y10 I10 J0\nG2 X20 Y0 R10\nG3 X20 Y0 I-10\nG91 G20 G1 X-1 ; an inch\n' |
+  python3 examples/gcode.py - >"$dir/way.csv" || fail "gcode.py"
+awk -F '[ ,#]+' '
+  NR == 2 { exit_if($0 != "0, 0, 0, 0  # line 0") }
+  NR > 2 && $6 > 3 && $6 < 7 { r = sqrt(($2 - .01)^2 + $3^2); exit_if(r < .01 - 1e-9 || r > .01 + 1e-9) }
+  NR > 2 && $6 == 6 && $3 < low { low = $3 }
+  NR > 2 && $6 == 5 { exit_if($2 < .01 - 1e-9 || $3 < -1e-9) }
+  { t = $1; x = $2 }
+  function exit_if(bad) { if (bad) { print "line " NR ": " $0; failed = 1 } }
+  END { exit_if(low > -.0099 || x > -.0053999 || x < -.0054001)
+    exit_if(t < 24.97 || t > 25.01 || NR < 40); exit failed }' "$dir/way.csv" ||
+  fail "gcode.py makes: $(cat "$dir/way.csv")"
+verdict '^hit at t = .* (after line [0-9]*), the first contact' "$dir/cube.obj" "$dir/cube.obj" --scale .001 --poses "$dir/way.csv"
+for bad in 'G28' 'G1 X1' 'G1 X1 A3 F1' 'G1 X#1 F1' 'G2 X1 F1' 'G2 X1 I9 F1' 'X1'; do
+  printf '%s\n' "$bad" | python3 examples/gcode.py - >/dev/null 2>"$dir/err" && fail "gcode.py takes: $bad"
+  grep -q 'gcode.py: line 1: ' "$dir/err" || fail "gcode.py says of $bad: $(cat "$dir/err")"
+done
+printf 'G28 Z9\nG1 X1 F1\n' | python3 examples/gcode.py - --skip G28 2>"$dir/err" | tail -1 | grep -q '^60, 0.001, 0, 0  # line 2$' || fail "gcode.py --skip"
+grep -q 'line 1 is skipped' "$dir/err" || fail "gcode.py --skip says: $(cat "$dir/err")"
 # For scripts: the answer as exit status, which no failure has. answers STATUS ARGUMENTS...
 answers() {
   wanted=$1

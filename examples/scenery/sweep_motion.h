@@ -8,15 +8,17 @@
 
 #define TURN_STEP 90.0     // degrees between two poses: slerp takes the shorter arc
 #define TURN_MOST 36000.0  // degrees
-#define MOST_POSES 402
 
 static const char axes[] = "xyz";
 
 typedef struct motion {
-  oracle_pose poses[MOST_POSES];
+  oracle_pose *poses;  // (count), room for NSVCD_MAX_POSES
   size_t count;
-  int through;  // the axis along which A passes through B; -1: as it was told
-  int turn;     // the axis about which it turns
+  double *times;  // (count) of a table: when, as it says; or the pose's number; NULL: of no table
+  size_t *lines;  // (count) of the table
+  int is_timed;   // the table has times
+  int through;    // the axis along which A passes through B; -1: as it was told
+  int turn;       // the axis about which it turns
   double degrees;
 } motion;
 
@@ -90,16 +92,20 @@ static int pass_through(const thing *a, const thing *b, oracle_pose *from, oracl
 }
 
 typedef struct motion_told {
-  const char *from, *to, *rotate;  // NULL: not
-  double shift[3];                 // metres, to what is told of A's place
+  const char *from, *to, *rotate, *poses;  // NULL: not
+  double shift[3];                         // metres, to what is told of A's place
 } motion_told;
+
+static int read_pose_table(const char *path, const double *shift, motion *m);
 
 // Makes the motion that was told. Returns 0 after a complaint.
 static int take_motion(const motion_told *told, const thing *a, const thing *b, motion *m) {
   oracle_pose from = {{told->shift[0], told->shift[1], told->shift[2]}, {0, 0, 0, 1}};
   oracle_pose to = from;
-  m->through = told->from || told->to ? -1 : pass_through(a, b, &from, &to);
   m->degrees = 0;
+  m->through = -1;
+  if (told->poses) return read_pose_table(told->poses, told->shift, m);
+  if (!told->from && !told->to) m->through = pass_through(a, b, &from, &to);
   if (told->from && !take_pose("--from", told->from, told->shift, &from)) return 0;
   if (told->to) memcpy(to.rotation, from.rotation, sizeof to.rotation);
   if (told->to && !take_pose("--to", told->to, told->shift, &to)) return 0;
@@ -123,6 +129,45 @@ static int take_motion(const motion_told *told, const thing *a, const thing *b, 
   return 1;
 }
 
+// The share of the motion at which pose i is, and where in the table a share is: after pose i.
+static double share_of_pose(const motion *m, size_t i) {
+  const size_t last = m->count - 1;
+  if (last == 0) return 0;
+  if (!m->is_timed) return (double)i / (double)last;
+  return (m->times[i] - m->times[0]) / (m->times[last] - m->times[0]);
+}
+static size_t pose_before(const motion *m, double share) {
+  size_t low = 0;
+  size_t high = m->count - 1;
+  while (low + 1 < high) {
+    const size_t middle = (low + high) / 2;
+    if (share_of_pose(m, middle) > share)
+      high = middle;
+    else
+      low = middle;
+  }
+  return low;
+}
+
+// The share if all poses were as long apart.
+static double uniform_share(const motion *m, double share) {
+  const size_t i = pose_before(m, share);
+  if (!m->is_timed || m->count < 2) return share;
+  const double begins = share_of_pose(m, i);
+  const double lasts = share_of_pose(m, i + 1) - begins;
+  return ((double)i + (share - begins) / lasts) / (double)(m->count - 1);
+}
+
+// "t = 0.4"; of a table "t = 0.4 (after line 12)", in its own times if it has them.
+static void shown_time(const motion *m, double share, char *out, size_t size) {
+  const double first = m->is_timed ? m->times[0] : 0;
+  const double all = m->is_timed ? m->times[m->count - 1] - first : 1;
+  const int n = m->is_timed ? snprintf(out, size, "t = %.6g", first + share * all)
+                            : snprintf(out, size, "t = %.4f", share);
+  if (m->lines && n > 0 && (size_t)n < size)
+    snprintf(out + n, size - (size_t)n, " (after line %zu)", m->lines[pose_before(m, share)]);
+}
+
 static void print_motion(const motion *m) {
   const oracle_pose *from = &m->poses[0];
   const oracle_pose *to = &m->poses[m->count - 1];
@@ -134,6 +179,7 @@ static void print_motion(const motion *m) {
     printf(", turning %g degrees about %c", m->degrees, axes[m->turn]);
   else if (arc > 1e-6)
     printf(", turning %.4g degrees about %.3g %.3g %.3g", arc, axis[0], axis[1], axis[2]);
+  if (m->lines) printf(", by %zu pose%s", m->count, m->count > 1 ? "s" : "");
   if (m->through >= 0)
     printf(": straight through B along %c, where it is thinnest", axes[m->through]);
   printf("\n");

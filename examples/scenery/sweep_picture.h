@@ -29,7 +29,7 @@ typedef struct sweep_picture {
 #define SWEEP_LEFT 24
 #define SWEEP_TOP 84
 #define SWEEP_EDGE 56   // pixels left free in the panel
-#define SWEEP_STEPS 32  // steps of the path
+#define SWEEP_STEPS 32  // steps of the path, at least
 #define SWEEP_NAME 512
 
 // Text for XML; bytes that XML cannot have become '?'.
@@ -81,6 +81,12 @@ static void sweep_corner(const double *low, const double *high, int i, double *o
   for (int k = 0; k < 3; k++) out[k] = i >> k & 1 ? high[k] : low[k];
 }
 
+// Steps of the path: as many between any two poses.
+static size_t sweep_steps(const sweep_picture *p) {
+  const size_t stretches = p->count > 1 ? p->count - 1 : 1;
+  return stretches * ((SWEEP_STEPS + stretches - 1) / stretches);
+}
+
 // The box of all places that A comes to, about.
 static void sweep_reach(const sweep_picture *p, double *low, double *high) {
   double corner[3], world[3];
@@ -88,9 +94,11 @@ static void sweep_reach(const sweep_picture *p, double *low, double *high) {
     low[k] = HUGE_VAL;
     high[k] = -HUGE_VAL;
   }
-  for (int i = 0; i < 8 * (SWEEP_STEPS + 1); i++) {
-    const oracle_pose pose = oracle_pose_at(p->poses, p->count, (double)(i / 8) / SWEEP_STEPS);
-    sweep_corner(p->a.mesh.low, p->a.mesh.high, i % 8, corner);
+  const size_t steps = sweep_steps(p);
+  for (size_t i = 0; i < 8 * (steps + 1); i++) {
+    const double t = (double)(i / 8) / (double)steps;
+    const oracle_pose pose = oracle_pose_at(p->poses, p->count, t);
+    sweep_corner(p->a.mesh.low, p->a.mesh.high, (int)(i % 8), corner);
     oracle_transform(&pose, corner, world);
     for (int k = 0; k < 3; k++) {
       low[k] = fmin(low[k], world[k]);
@@ -172,8 +180,9 @@ static void sweep_label(FILE *svg, const draw_view *view, const sweep_picture *p
 static void sweep_path(FILE *svg, const draw_view *view, const sweep_picture *p) {
   fprintf(svg, "<path fill=\"none\" stroke=\"" DRAW_INK
                "\" stroke-width=\"2\" stroke-dasharray=\"2 6\" stroke-linecap=\"round\" d=\"");
-  for (int i = 0; i <= SWEEP_STEPS; i++) {
-    const oracle_pose pose = oracle_pose_at(p->poses, p->count, (double)i / SWEEP_STEPS);
+  const size_t steps = sweep_steps(p);
+  for (size_t i = 0; i <= steps; i++) {
+    const oracle_pose pose = oracle_pose_at(p->poses, p->count, (double)i / (double)steps);
     double world[3];
     oracle_transform(&pose, p->a.mesh.center, world);
     draw_to(svg, view, i == 0, world);

@@ -14,6 +14,7 @@
 #include "../scenery/robot_room.h"
 #include "../scenery/problem_summary.h"
 #include "../scenery/sweep_motion.h"
+#include "../scenery/pose_table.h"
 // and these of the oracle
 #include "../scenery/poses.h"
 #include "../scenery/sweep_picture.h"
@@ -29,11 +30,11 @@ struct settings {
   float seconds;         // 0: for a plan as long as it takes, for a question DECIDE_SECONDS
   size_t visits;         // the most for a certificate; 0: the library's default
   size_t repeat;         // 0: the command's default
-  const char *from, *to, *rotate, *scale, *picture, *film, *details, *only, *joints;
+  const char *from, *to, *rotate, *poses, *scale, *picture, *film, *details, *only, *joints;
   const char *certificate, *certificates, *srdf;
   size_t seed, samples;
   size_t threads;  // 0: 1
-  int int8, help, json, is_first_given, recentre;
+  int int8, help, json, is_first_given, recentre, all;
   int exit_code;  // 1: the exit status is to be
   int answer;     // ... this: 0 free, 1 hit, 3 undecided
   const char **paths;

@@ -7,7 +7,8 @@
 typedef struct sweep_job {
   thing a, b;  // a moves
   motion motion;
-  nsvcd_pose poses[MOST_POSES];
+  nsvcd_pose *poses;  // (motion.count)
+  float *times;       // (motion.count); NULL: uniform
   nsvcd_question question;
   int by_proof;
   void *workspace;
@@ -91,18 +92,33 @@ static double sweep_timed(sweep_job *job, const settings *options, nsvcd_answer 
   return median;
 }
 
+// Makes the library's poses and times of the motion. Returns 0 after a complaint.
+static int sweep_round(sweep_job *job) {
+  const motion *m = &job->motion;
+  job->poses = (nsvcd_pose *)allocate(m->count * sizeof *job->poses);
+  for (size_t i = 0; i < m->count; i++) job->poses[i] = pose_rounded(&m->poses[i]);
+  if (!m->is_timed || m->count == 1) return 1;
+  job->times = (float *)allocate(m->count * sizeof *job->times);
+  for (size_t i = 0; i < m->count; i++) {
+    job->times[i] = pose_to_float(share_of_pose(m, i));
+    if (i > 0 && !(job->times[i] - job->times[i - 1] >= 1e-7f))  // what the library takes
+      return complain("--poses: line %zu: its time is too near that of the line before",
+                      m->lines[i]);
+  }
+  return 1;
+}
+
 // Asks the question, and, if the bodies are free of each other, how near they come.
 static int sweep_ask(sweep_job *job, const settings *options) {
   nsvcd_question *question = &job->question;
   *question = options->sweep;
   question->a.body = job->a.body;
   question->a.poses = job->poses;
+  question->a.times = job->times;
   question->a.count = job->motion.count;
   question->a.scale = job->a.scale;
   question->b.body = job->b.body;
   question->b.scale = job->b.scale;
-  for (size_t i = 0; i < job->motion.count; i++)
-    job->poses[i] = pose_rounded(&job->motion.poses[i]);
   job->wait = wait_for(options);
   job->microseconds = sweep_timed(job, options, &job->answer);
   if (job->microseconds < 0) return 0;
@@ -146,19 +162,23 @@ static void sweep_verdict(const sweep_job *job, const settings *options, char *o
   const float clearance = options->sweep.clearance;
   const int collides = collides_of(a);
   const char *word = collides ? "hit" : "free";
-  char when[60] = "";
+  char when[160] = "";
+  char low[60], at[60];
   char near_by[60] = "";
   char reason[120];
+  shown_time(&job->motion, (double)a->time.low, low, sizeof low);
+  shown_time(&job->motion, (double)(collides ? contact_time_of(a) : 0), at, sizeof at);
   if (collides)
-    snprintf(when, sizeof when, " at t = %.4f, %s", (double)contact_time_of(a),
+    snprintf(when, sizeof when, " at %s, %s", at,
              wants_first(options) || !(contact_time_of(a) > 0) ? "the first contact"
                                                                : "perhaps not the first contact");
-  if (hides_first(a))
-    snprintf(when, sizeof when, " at t = %.4f, and not before t = %.4f", (double)a->time.high,
-             (double)a->time.low);
+  if (hides_first(a)) {
+    shown_time(&job->motion, (double)a->time.high, at, sizeof at);
+    snprintf(when, sizeof when, " at %s, and not before %s", at, low);
+  }
   if (a->verdict == NSVCD_UNDECIDED) {
     word = collides ? "undecided, taken as a hit" : "undecided, taken as free";
-    snprintf(when, sizeof when, "; free until t = %.4f", (double)a->time.low);
+    snprintf(when, sizeof when, "; free until %s", low);
   }
   if (clearance > 0)
     snprintf(near_by, sizeof near_by, ", %s %g m", collides ? "as near as" : "never as near as",
@@ -177,7 +197,7 @@ static void print_vector(const char *name, const float *v, double size, const ch
 
 static void print_answer(const sweep_job *job, const settings *options) {
   const nsvcd_answer *a = &job->answer;
-  char verdict[320];
+  char verdict[420], when[60];
   double size = 0;
   for (int k = 0; k < 3; k++) size = fmax(size, job->b.high[k] - job->b.low[k]);
   sweep_verdict(job, options, verdict, sizeof verdict);
@@ -192,8 +212,10 @@ static void print_answer(const sweep_job *job, const settings *options) {
            (unsigned long)a->contacts[0].triangle_a, (unsigned long)a->contacts[0].triangle_b);
   }
   if (job->nearest.distance.high > 0)
-    printf("clearance  %.4g to %.4g m, at t = %.4f\n", (double)job->nearest.distance.low,
-           (double)job->nearest.distance.high, (double)job->nearest.nearest.time);
+    shown_time(&job->motion, (double)job->nearest.nearest.time, when, sizeof when);
+  if (job->nearest.distance.high > 0)
+    printf("clearance  %.4g to %.4g m, at %s\n", (double)job->nearest.distance.low,
+           (double)job->nearest.distance.high, when);
   print_motion(&job->motion);
   for (int i = 0; i < 2; i++) {
     const thing *t = i ? &job->b : &job->a;
@@ -211,6 +233,81 @@ static void print_answer(const sweep_job *job, const settings *options) {
   fflush(stdout);
 }
 
+// ------------------------------------------------------------------------------------ all contacts
+
+// Tells of stretches from pose `from` to pose `to`; `first` answers for the first of them.
+static void tell_stretches(const sweep_job *job, json_out *json, size_t from, size_t to,
+                           const nsvcd_answer *first) {
+  const motion *m = &job->motion;
+  const int is_hit = first->verdict == NSVCD_HIT;
+  const size_t last = to < m->count ? to : from;
+  const double begins = share_of_pose(m, from);
+  const double lasts = m->count > 1 ? share_of_pose(m, from + 1) - begins : 0;
+  const double share = begins + lasts * (is_hit ? (double)contact_time_of(first) : 0);
+  char when[60];
+  shown_time(m, share, when, sizeof when);
+  if (json) {
+    json_open(json, NULL, '{');
+    json_text(json, "verdict", nsvcd_verdict_string(first->verdict));
+    json_count(json, "from_line", m->lines[from]);
+    json_count(json, "to_line", m->lines[last]);
+    json_float(json, "time", share);
+    if (is_hit) json_floats(json, "point", first->nearest.point, 3);
+    json_close(json, '}');
+    return;
+  }
+  printf("%-10s lines %zu to %zu", is_hit ? "contact" : "undecided", m->lines[from],
+         m->lines[last]);
+  if (is_hit)
+    printf(", first at %s: %.5g %.5g %.5g m", when, (double)first->nearest.point[0],
+           (double)first->nearest.point[1], (double)first->nearest.point[2]);
+  printf("\n");
+}
+
+// Asks about each stretch between two poses by itself, and tells those with a contact: neighbours
+// together, with the first contact of theirs. Returns 0 after a complaint.
+static int sweep_all(sweep_job *job, const settings *options, json_out *json) {
+  const motion *m = &job->motion;
+  const size_t stretches = m->count > 1 ? m->count - 1 : 1;
+  size_t counts[3] = {0, 0, 0};  // by the verdict
+  size_t from = 0;               // where the run of stretches that are not free begins
+  nsvcd_answer first;
+  progress_bar bar = {"stretches", stretches, 0, 0};
+  memset(&first, 0, sizeof first);
+  job->question = options->sweep;
+  job->question.a.body = job->a.body;
+  job->question.a.scale = job->a.scale;
+  job->question.b.body = job->b.body;
+  job->question.b.scale = job->b.scale;
+  job->question.a.count = m->count > 1 ? 2 : 1;
+  ask_first(&job->question, options);
+  if (json) json_open(json, "all", '[');
+  for (size_t i = 0; i <= stretches; i++) {
+    nsvcd_answer now;
+    memset(&now, 0, sizeof now);
+    now.verdict = NSVCD_FREE;
+    job->question.a.poses = job->poses + i;
+    if (i < stretches) {
+      job->wait = wait_for(options);
+      if (!sweep_decided(job, options->sweep.work, &now)) return 0;
+      counts[now.verdict]++;
+      progress_step(&bar, i);
+    }
+    if (i > from && now.verdict != first.verdict && first.verdict != NSVCD_FREE)
+      tell_stretches(job, json, from, i, &first);
+    if (i == 0 || now.verdict != first.verdict) {
+      first = now;
+      from = i;
+    }
+  }
+  progress_end(&bar);
+  if (json) json_close(json, ']');
+  if (!json)
+    printf("stretches  %zu: %zu free, %zu with a contact, %zu undecided\n", stretches,
+           counts[NSVCD_FREE], counts[NSVCD_HIT], counts[NSVCD_UNDECIDED]);
+  return 1;
+}
+
 static void json_range(json_out *j, const char *key, const nsvcd_range *range) {
   json_open(j, key, '{');
   json_float(j, "low", (double)range->low);
@@ -218,7 +315,8 @@ static void json_range(json_out *j, const char *key, const nsvcd_range *range) {
   json_close(j, '}');
 }
 
-static void print_json(const sweep_job *job) {
+// Returns 0 after a complaint.
+static int print_json(sweep_job *job, const settings *options) {
   const nsvcd_answer *a = &job->answer;
   json_out j = {stdout, 0};
   json_open(&j, NULL, '{');
@@ -261,9 +359,11 @@ static void print_json(const sweep_job *job) {
   if (job->microseconds_first > 0)
     json_digits(&j, "microseconds_first", job->microseconds_first, 4);
   json_count(&j, "repeat", job->repeated);
+  if (options->all && !sweep_all(job, options, &j)) return 0;
   json_digits(&j, "milliseconds_encoding", 1e3 * (job->a.taken + job->b.taken), 4);
   json_end_line(&j);
   fflush(stdout);
+  return 1;
 }
 
 // ------------------------------------------------------------------------------------- its picture
@@ -298,7 +398,7 @@ static int picture_body(const thing *t, sweep_body *out) {
 static int draw_job(const sweep_job *job, const settings *options) {
   const nsvcd_answer *a = &job->answer;
   sweep_picture p;
-  char verdict[320];
+  char verdict[420];
   memset(&p, 0, sizeof p);
   sweep_verdict(job, options, verdict, sizeof verdict);
   const int collides = collides_of(a);
@@ -308,10 +408,10 @@ static int draw_job(const sweep_job *job, const settings *options) {
   p.poses = job->motion.poses;
   p.count = job->motion.count;
   p.collides = collides;
-  p.shown = collides ? (double)contact_time_of(a) : 0.5;
+  p.shown = collides ? uniform_share(&job->motion, (double)contact_time_of(a)) : 0.5;
   p.shown_as = collides ? "contact" : "half way";
   if (job->nearest.distance.high > 0) {
-    p.shown = (double)job->nearest.nearest.time;
+    p.shown = uniform_share(&job->motion, (double)job->nearest.nearest.time);
     p.shown_as = "nearest";
   }
   if (a->contact_count > 0) {
@@ -343,7 +443,7 @@ static void warn_of_sizes(const sweep_job *job, const float *scales) {
 }
 
 static int sweep_run(sweep_job *job, settings *options, const float *scales) {
-  motion_told told = {options->from, options->to, options->rotate, {0, 0, 0}};
+  motion_told told = {options->from, options->to, options->rotate, options->poses, {0, 0, 0}};
   if (!open_thing(options->paths[0], &job->a) || !open_thing(options->paths[1], &job->b))
     return REFUSED;
   if (options->certificate && (job->a.is_body || job->b.is_body))
@@ -359,12 +459,17 @@ static int sweep_run(sweep_job *job, settings *options, const float *scales) {
   warn_of_sizes(job, scales);
   for (int k = 0; k < 3; k++)
     told.shift[k] = (double)scales[0] * job->a.origin[k] - (double)scales[1] * job->b.origin[k];
-  if (!take_motion(&told, &job->a, &job->b, &job->motion)) return USAGE;
+  job->motion.poses = (oracle_pose *)allocate(NSVCD_MAX_POSES * sizeof *job->motion.poses);
+  if (!take_motion(&told, &job->a, &job->b, &job->motion)) return told.poses ? REFUSED : USAGE;
+  if (!sweep_round(job)) return REFUSED;
+  if (options->certificate && job->times)
+    return usage_error("--certificate", "not of a table with times");
   const int status = sweep_method(job, options);
   if (status != DONE) return status;
   if (!sweep_ask(job, options)) return REFUSED;
-  if (options->json) print_json(job);
+  if (options->json && !print_json(job, options)) return REFUSED;
   if (!options->json) print_answer(job, options);
+  if (!options->json && options->all && !sweep_all(job, options, NULL)) return REFUSED;
   options->answer = job->answer.verdict == NSVCD_UNDECIDED ? 3 : job->answer.verdict == NSVCD_HIT;
   if (options->certificate) {
     if (!write_proof(options->certificate, options->paths, scales, job->poses, job->motion.count,
@@ -381,8 +486,12 @@ static int sweep(settings *options) {
   float scales[2];
   if (options->path_count != 2)
     return usage_error("sweep", "expected two files, A and B ('svcd sweep --help')");
-  const int piped = is_standard_input(options->paths[0]) + is_standard_input(options->paths[1]);
-  if (piped == 2) return usage_error("sweep", "only one of the two files may be -, standard input");
+  const int piped = is_standard_input(options->paths[0]) + is_standard_input(options->paths[1]) +
+                    (options->poses && is_standard_input(options->poses));
+  if (piped > 1) return usage_error("sweep", "only one of the files may be -, standard input");
+  if (options->poses && (options->from || options->to || options->rotate))
+    return usage_error("--poses", "not together with --from, --to or --rotate");
+  if (options->all && !options->poses) return usage_error("--all", "needs --poses");
   if (!options->is_first_given) options->first[0] = 0.001f;
   if (options->picture && !ends_with(options->picture, ".svg"))
     return complain("--picture: %s does not end in .svg", options->picture), USAGE;
@@ -402,6 +511,11 @@ static int sweep(settings *options) {
   const int status = sweep_run(job, options, scales);
   free_thing(&job->a);
   free_thing(&job->b);
+  free(job->motion.poses);
+  free(job->motion.times);
+  free(job->motion.lines);
+  free(job->poses);
+  free(job->times);
   free(job->workspace);
   free(job);
   return status;

@@ -1,0 +1,79 @@
+// pose_table.h - how A moves, read from a table: a line for each pose, its numbers between commas,
+// semicolons, tabs or blanks. Include sweep_motion.h first.
+//
+//   x y z                    metres, the rotation stays
+//   x y z qx qy qz qw        and a unit quaternion
+//   t x y z [qx qy qz qw]    when: rising, in any unit
+//
+// All lines have as many numbers as the first. What stands behind a # is skipped, and so is a first
+// line that is no number: the names of the columns.
+#ifndef NSVCD_SCENERY_POSE_TABLE_H
+#define NSVCD_SCENERY_POSE_TABLE_H
+
+// Takes the fields of a line for pose number m->count. Returns 0 after a complaint.
+static int take_pose_line(const reader *r, const double *shift, motion *m) {
+  double n[8];
+  const size_t timed = r->field_count == 4 || r->field_count == 8;
+  const double *at = n + timed;
+  oracle_pose pose = {{0, 0, 0}, {0, 0, 0, 1}};
+  for (size_t i = 0; i < r->field_count; i++)
+    if (!parse_number(r->fields[i], &n[i]) || !(fabs(n[i]) <= 1e30))
+      return refuse_field(r, "not a finite number", r->fields[i]);
+  for (size_t k = 0; k < 3; k++) {
+    pose.position[k] = at[k] + shift[k];
+    if (!(fabs(pose.position[k]) <= (double)NSVCD_MAX_COORDINATE))
+      return refuse_field(r, "a coordinate is out of range", r->fields[timed + k]);
+  }
+  if (r->field_count > 4) {
+    const double length = sqrt(oracle_dot(at + 3, at + 3) + at[6] * at[6]);
+    if (!(fabs(length - 1) <= (double)NSVCD_UNIT_TOLERANCE))
+      return refuse(r, "the quaternion is not of unit length (to 1e-4)");
+    memcpy(pose.rotation, at + 3, sizeof pose.rotation);
+    oracle_quat_normalize(pose.rotation);
+  }
+  if (timed && m->count > 0 && !(n[0] > m->times[m->count - 1]))
+    return refuse_field(r, "times do not rise", r->fields[0]);
+  m->poses[m->count] = pose;
+  m->lines[m->count] = r->line;
+  m->times[m->count] = timed ? n[0] : (double)m->count;
+  m->count++;
+  return 1;
+}
+
+static int read_pose_lines(reader *r, const double *shift, motion *m) {
+  size_t columns = 0;
+  int is_named = 0;
+  double number;
+  while (next_line(r)) {
+    const size_t n = r->field_count;
+    const int is_name = columns == 0 && !is_named && !parse_number(r->fields[0], &number);
+    is_named |= is_name;
+    if (is_name) continue;
+    if (columns == 0) columns = n;
+    if (n != columns || (n != 3 && n != 4 && n != 7 && n != 8))
+      return refuse(r, "expected [t] x y z [qx qy qz qw], in all lines the same");
+    if (m->count == NSVCD_MAX_POSES) return refuse(r, "more than 65536 poses");
+    if (!take_pose_line(r, shift, m)) return 0;
+  }
+  m->is_timed = columns == 4 || columns == 8;
+  return m->count > 0 ? 1 : complain("%s: no poses", r->path);
+}
+
+// Reads the table. shift: added to positions. Returns 0 after a complaint.
+static int read_pose_table(const char *path, const double *shift, motion *m) {
+  size_t size;
+  reader r;
+  char *text = read_file("", path, &size, look_at_text);
+  if (!text) return 0;
+  memset(&r, 0, sizeof r);
+  r.path = shown_name(path);
+  r.next = text;
+  for (char *c = text; *c; c++) *c = *c == ',' || *c == ';' ? ' ' : *c;
+  m->lines = (size_t *)allocate(NSVCD_MAX_POSES * sizeof *m->lines);
+  m->times = (double *)allocate(NSVCD_MAX_POSES * sizeof *m->times);
+  const int good = look_at_text("", r.path, text, size) && read_pose_lines(&r, shift, m);
+  free(text);
+  return good;
+}
+
+#endif
