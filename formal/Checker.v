@@ -1069,34 +1069,26 @@ Proof.
   split; intros m m' t x; eapply chained_one; eauto.
 Qed.
 
-Lemma accepts_formed s bytes ap : accepts s bytes = Some ap -> 0 <= Q2R (clearance s) /\
-  (forall m, In m (pieces (body_a s)) -> well_formed (pieceR (size (body_a s)) m)) /\
-  (forall m, In m (pieces (body_b s)) -> well_formed (pieceR (size (body_b s)) m)).
+Lemma proper_of b : sound_body b = true -> proper b /\ forall m, In m (pieces b) -> well_formed (pieceR (size b) m).
 Proof.
-  intros H. apply accepts_walk in H as (A & B & C & _).
-  unfold sound_body in A, B. rewrite !andb_true_iff, forallb_forall in A, B. destruct A as ((Sa & Ma) & _), B as ((Sb & Mb) & _).
-  apply Qle_bool_iff, Qle_Rle in C. rewrite Q2R_0 in C.
-  split; [exact C|split; intros m I; apply sound_R; auto].
-Qed.
-
-Lemma proper_of b : sound_body b = true -> proper b.
-Proof.
-  unfold sound_body. rewrite !andb_true_iff. intros ((S & M) & _). split.
+  unfold sound_body. rewrite !andb_true_iff, forallb_forall. intros ((S & M) & _). split; [split|intros m I; apply sound_R; auto].
   - apply Qle_bool_iff, Qle_Rle in S. rewrite Q2R_0 in S. exact S.
-  - intros m I. rewrite forallb_forall in M. specialize (M m I). unfold sound_piece in M. rewrite !andb_true_iff in M.
+  - intros m I. specialize (M m I). unfold sound_piece in M. rewrite !andb_true_iff in M.
     destruct M as ((T & A) & B). apply Qlt_bool_R in T, A, B. rewrite qdotQ_R, Q2R_0 in A, B. auto.
 Qed.
 
-Lemma accepts_well_posed s bytes ap : accepts s bytes = Some ap -> well_posed s.
+Lemma accepts_well_posed s bytes ap : accepts s bytes = Some ap -> well_posed s /\
+  (forall m, In m (pieces (body_a s)) -> well_formed (pieceR (size (body_a s)) m)) /\
+  (forall m, In m (pieces (body_b s)) -> well_formed (pieceR (size (body_b s)) m)).
 Proof.
   intros H. apply accepts_walk in H as (A & B & C & _). apply Qle_bool_iff, Qle_Rle in C. rewrite Q2R_0 in C.
-  split; [exact C|split; apply proper_of; assumption].
+  apply proper_of in A as [A Fa], B as [B Fb]. split; [split|]; auto.
 Qed.
 
 Theorem accepts_sound : sound accepts.
 Proof.
-  intros s bytes ap H. destruct (accepts_covers s bytes ap H), (accepts_one s bytes ap H), (accepts_formed s bytes ap H) as (C & Fa & Fb).
-  pose proof (accepts_never_meet s bytes ap H) as M. pose proof (accepts_well_posed s bytes ap H) as W.
+  intros s bytes ap H. destruct (accepts_covers s bytes ap H), (accepts_one s bytes ap H), (accepts_well_posed s bytes ap H) as (W & Fa & Fb).
+  pose proof (accepts_never_meet s bytes ap H) as M. destruct (W) as (C & _).
   split; [exact M|split; [intros ->|split; [split; auto|split; [split; auto|exact W]]]].
   pose proof (accepts_apart s bytes H) as P. split; [exact P|]. apply inside_never; auto; split; auto; split; auto.
 Qed.

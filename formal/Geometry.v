@@ -183,14 +183,14 @@ Qed.
 (* ---- what leaves its chord *)
 Lemma concave_above (h h1 h2 : R -> R) a b :
   (forall v, derivable_pt_lim h v (h1 v)) -> (forall v, derivable_pt_lim h1 v (h2 v)) ->
-  (forall v, h2 v <= 0) -> h a = 0 -> h b = 0 -> forall v, a <= v <= b -> 0 <= h v.
+  (forall v, a <= v <= b -> h2 v <= 0) -> h a = 0 -> h b = 0 -> forall v, a <= v <= b -> 0 <= h v.
 Proof.
   intros D1 D2 N A B v [L U].
   destruct (Req_dec v a) as [->|Na]; [lra|]. destruct (Req_dec v b) as [->|Nb]; [lra|].
   destruct (MVT_cor2 h h1 a v) as (c1 & E1 & I1); [lra|auto|].
   destruct (MVT_cor2 h h1 v b) as (c2 & E2 & I2); [lra|auto|].
   destruct (MVT_cor2 h1 h2 c1 c2) as (c3 & E3 & I3); [lra|auto|].
-  specialize (N c3). assert (h1 c2 <= h1 c1) by nra.
+  specialize (N c3 ltac:(lra)). assert (h1 c2 <= h1 c1) by nra.
   destruct (Rle_dec 0 (h v)) as [|M]; [auto|exfalso].
   assert (h1 c1 < 0) by nra. assert (0 < h1 c2) by nra. lra.
 Qed.
@@ -215,7 +215,7 @@ Proof.
       generalize (f u0) (f u1); intros; unfold f. auto_derive; [lra|field; lra].
     - intros v. apply is_derive_Reals. unfold h1, h2.
       generalize (f u0) (f u1); intros. auto_derive; [auto|field].
-    - intros v. unfold h2. specialize (H' (w * v)). pose proof (pow2_ge_0 w). nra.
+    - intros v _. unfold h2. specialize (H' (w * v)). pose proof (pow2_ge_0 w). nra.
     - unfold h, chord. field. lra.
     - unfold h, chord. field. lra. }
   unfold h in P. fold (chord u).

@@ -24,4 +24,4 @@ echo "formal: proven, from the four axioms of classical reals"
 
 ocamlfind query -qe zarith coq-core.kernel >/dev/null 2>&1 || { echo "formal: ocamlfind with zarith and coq-core: not tested"; exit 0; }
 ${MAKE:-make} --no-print-directory build/referee build/verify build/svcd build/problems || fail "the referee is not made"
-formal/compare.sh
+formal/compare.sh && python3 formal/boundary.py $out/boundary

@@ -976,6 +976,21 @@ for number in nan NaN inf -INF 'nan(0)' 1e39; do
   printf 'nsvcd-problems 1\nmesh m cube.obj\nproblem x m 1 m 1 0 0 0 0 0 0 1 -1 nan 1\n%s 0 0 0 0 0 1\n' "$number" >"$dir/bad_number.txt"
   expect 2 'a number is none' build/verify "$dir/bad_number.txt" "$dir"
 done
+# As svcd, no other version, count or second mesh of a name; STL is what ends in stl, which rust1 does not.
+cp "$dir/cube.obj" "$dir/rust1"
+while read -r fault mesh version counts; do
+  printf 'nsvcd-problems %s\nmesh m cube.obj\nmesh %s rust1\nproblem x m 1 m 1 0 0 0 0 0 0 1 -1 nan %s\n0 0 0 0 0 0 1\n' $version $mesh "$counts" >"$dir/bad_count.txt"
+  expect 2 "$fault" build/verify "$dir/bad_count.txt" "$dir"
+done <<'END'
+version n 2 1
+name m 1 1
+COUNT n 1 1a
+COUNT n 1 +1
+COUNT n 1 1 0
+COUNT n 1 65537
+END
+printf 'nsvcd-problems 1\nmesh n rust1\nproblem x n 1 n 1 0 0 0 0 0 0 1 -1 nan 1\n0 0 0 0 0 0 1\n' >"$dir/bad_count.txt"
+expect 1 '' build/verify "$dir/bad_count.txt" "$dir"
 # what is not certified, or takes more steps than are allowed, has none; the other plans are answered
 echo old >"$dir/certs/stuck.cert"
 echo old >"$dir/certs/up.cert"

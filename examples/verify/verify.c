@@ -53,6 +53,13 @@ static const nsvcd_verify_mesh *mesh_named(const char *path, const list *meshes,
   return NULL;
 }
 
+static size_t poses_of(const char *path, const char *word) {
+  const size_t count = strtoul(word, NULL, 10);
+  if (word[strspn(word, "0123456789")] || count < 1 || count > 65536)
+    fail(path, "a COUNT is out of range");
+  return count;
+}
+
 // Checks one certificate, and writes its line. 1: it is accepted.
 static int check(request *asked, const char *id, const side *a, const side *b) {
   static const char *const kinds[] = {"", "free", "hit", "near", "inside"};
@@ -81,9 +88,8 @@ static int check(request *asked, const char *id, const side *a, const side *b) {
 static int check_problem(const char *path, char **text, char **words, size_t count,
                          const list *meshes, request *asked) {
   side a, b;
-  const size_t poses_a = strtoul(words[15], NULL, 10);
-  const size_t poses_b = count > 16 ? strtoul(words[16], NULL, 10) : 0;
-  if (poses_a < 1 || poses_a > 65536 || poses_b > 65536) fail(path, "a COUNT is out of range");
+  const size_t poses_a = poses_of(path, words[15]);
+  const size_t poses_b = count > 16 ? poses_of(path, words[16]) : 0;
   float *poses = (float *)allocate(7 * (poses_a + poses_b + 1) * sizeof *poses);
   read_poses(path, text, poses_a + poses_b, poses);
   read_pose(path, words + 6, poses + 7 * (poses_a + poses_b));
@@ -111,6 +117,10 @@ static int check_problems(const char *path, char *text, request *asked) {
   for (size_t n = next_words(&text, words, MOST_WORDS); n > 0;
        n = next_words(&text, words, MOST_WORDS)) {
     if (n == 3 && strcmp(words[0], "mesh") == 0) {
+      for (size_t i = 0; i < meshes.count; i++) {
+        if (strcmp(((const named *)meshes.items)[i].name, words[1]) == 0)
+          fail(path, "a mesh has the name of another");
+      }
       named *mesh = (named *)add(&meshes, sizeof *mesh);
       mesh->name = words[1];
       mesh->mesh = mesh_of_file(path, words[2], NULL);
@@ -159,6 +169,7 @@ int main(int argc, char **argv) {
   const int is_plans = strcmp(words[0], "nsvcd-plans") == 0;
   if (!is_plans && (pairs || strcmp(words[0], "nsvcd-problems") != 0))
     fail(path, pairs ? "it is no planning file" : "its first line is not nsvcd-problems 1");
+  if (strcmp(words[1], "1") != 0) fail(path, "only version 1 is known");
   int all = 0;
   if (is_plans) all = check_plans(path, next, &asked, &r);
   if (!is_plans) all = check_problems(path, next, &asked);

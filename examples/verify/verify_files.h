@@ -327,7 +327,8 @@ static void read_mesh(const char *path, const double *scale, nsvcd_verify_mesh *
   char *text = read_file(path, &size);
   if (!text) fail(path, strerror(errno));
   const size_t length = strlen(path);
-  const int is_stl = length > 4 && (path[length - 3] | 32) == 's' && (path[length - 2] | 32) == 't';
+  const int is_stl = length > 4 && (path[length - 3] | 32) == 's' &&
+                     (path[length - 2] | 32) == 't' && (path[length - 1] | 32) == 'l';
   char *begin = size >= 3 && memcmp(text, "\xef\xbb\xbf", 3) == 0 ? text + 3 : text;
   if (is_stl) read_stl(path, text, size, &positions, &indices);
   if (!is_stl) no_zero(path, text, size);
