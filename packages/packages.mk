@@ -64,3 +64,21 @@ uninstall:  ## takes it away again
 	  $(DESTDIR)$(PREFIX)/lib/libneuralsvcd.* $(DESTDIR)$(PREFIX)/lib/pkgconfig/neuralsvcd.pc \
 	  $(DESTDIR)$(PREFIX)/lib/pkgconfig/neuralsvcd-library.pc $(PROGRAMS:build/installed/%=$(DESTDIR)$(PREFIX)/bin/%)
 	for manual in $(MANUALS); do rm -f $(DESTDIR)$(PREFIX)/share/$${manual#*:}; done
+
+# Is a joint trajectory free? For controllers: the adapter, what stands in for a controller, its test.
+GUARD = packages/trajectory/trajectory_guard.c
+build/controller: packages/trajectory/controller.c $(GUARD) packages/trajectory/trajectory_guard.h $(SCENERY) $(LIBRARY) $(EXTRAS) | build
+	$(CC) -O2 -std=c99 -Wall -Wextra -DCOUNT_ALLOCATIONS -o $@ $< $(GUARD) -Wl,--wrap=malloc -lm
+build/test_guard: packages/trajectory/test_guard.cpp $(GUARD) $(wildcard packages/trajectory/*.h*) $(SCENERY) $(LIBRARY) $(EXTRAS) | build
+	$(CC) -O0 -DNSVCD_NO_DISPATCH -g -fsanitize=address,undefined -std=c99 -c -o build/trajectory_guard.o $(GUARD)
+	$(CXX) -std=c++11 -Wall -Wextra -Werror -g -fsanitize=address,undefined -o $@ $< build/trajectory_guard.o -lm
+.PHONY: check-trajectory
+check-trajectory: build/test_guard build/controller build/svcd  # trajectories for controllers
+	build/test_guard build
+	python3 examples/robot/urdf.py examples/robot/arm.urdf --srdf examples/robot/arm.srdf --scene shelf examples/robot/shelf.urdf build/cell.txt
+	echo 'obstacle person capsule: 0.15 0.8  5 5 5 0 0 0 1' >>build/cell.txt
+	cat examples/robot/plans.txt >>build/cell.txt
+	build/svcd plan build/cell.txt --only up --samples 200 --joints build/up.tsv
+	build/controller build/cell.txt shelf person 1.68 build/up.tsv >build/controller.txt; cat build/controller.txt
+	grep -q 'stops: .*, person$$' build/controller.txt && grep -q '^there after' build/controller.txt
+	grep -q ' 0 allocations$$' build/controller.txt

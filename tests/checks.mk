@@ -2,7 +2,7 @@
 
 # What a change must pass beside `make test`, within 25 minutes on two cores; and what a release must: CONTRIBUTING.md says
 # what each catches. Programs that several of them use are made first, so that no two make the same file at once.
-CHECKS = text rooms header examples newcomer tools processor fast-math levels exact extremes motions sanitizers fuzz python trainer benches formal
+CHECKS = text rooms header examples newcomer tools processor fast-math levels exact extremes motions sanitizers fuzz python trainer benches formal trajectory
 RELEASE = packages formal-all gradient tiles many 32 options robots rest one-path problems threads cross mingw firmware web sanitizers-all mutants
 CHECKED = build/svcd build/verify $(DEMOS) build/make_assets build/problems build/check_motions build/check_rest
 check:  ## what else a change must pass; the last line is `N passed, N failed, N skipped`; ONLY="text rooms"
@@ -176,8 +176,8 @@ check-extremes: build/problems build/svcd build/check_floors  # tiny, huge, far,
 check-one-path:  # NSVCD_ONE_PATH: the same bits from several compilers, sets of instructions, and under QEMU and node
 	CC="$(CC)" tests/one_path.sh
 
-WRITTEN = train examples examples/scenery examples/svcd examples/firmware examples/python examples/verify examples/web packages/project tests tests/promises tests/bench
-FORMATTED = $(ROOMS) $(wildcard $(WRITTEN:%=%/*.[ch]) tests/bench/*.cc)
+WRITTEN = train examples examples/scenery examples/svcd examples/firmware examples/python examples/verify examples/web packages/project packages/trajectory tests tests/promises tests/bench
+FORMATTED = $(ROOMS) $(wildcard $(WRITTEN:%=%/*.[ch]) tests/bench/*.cc packages/trajectory/*pp)
 format:  ## clang-format on what is written by hand
 	clang-format -i $(FORMATTED)
 # Version 14 decides, as in Debian 12: others break lines elsewhere.
