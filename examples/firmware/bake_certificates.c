@@ -65,7 +65,7 @@ static void pose_scene(uint32_t number, nsvcd_pose *poses, nsvcd_pose *b_poses,
 static nsvcd_result certify(FILE *file, baker *b, uint32_t number) {
   nsvcd_question q = {0};
   nsvcd_certificate made;
-  nsvcd_pose b_poses[POSES];
+  nsvcd_pose b_poses[B_POSES];
   nsvcd_pose *poses = b->poses + b->pose_count;
   const size_t room = ROOM - b->byte_count;
   pose_scene(number, poses, b_poses, &q);

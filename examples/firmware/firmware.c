@@ -44,9 +44,9 @@ static int ask_all(const char *name, nsvcd_method method, const nsvcd_body *mug,
   uint64_t most = 0;
   board_stack_paint();
   for (uint32_t i = 0; i < QUESTIONS; i++) {
-    nsvcd_pose poses[POSES];
-    nsvcd_pose b_poses[POSES];
-    static nsvcd_answer answer;  // 380 bytes
+    // not on the stack, where a board has little: 168 and 380 bytes
+    static nsvcd_pose poses[POSES], b_poses[B_POSES];
+    static nsvcd_answer answer;
     nsvcd_question question = {0};
     question.a.body = mug;
     question.b.body = rack;

@@ -6,7 +6,8 @@
 #define QUESTIONS_H
 
 #define QUESTIONS 32
-#define POSES 4  // the most of a motion
+#define POSES 4    // the most of a motion
+#define B_POSES 2  // the most of the rack's
 
 // A random number in -1..1.
 static float random_of(uint32_t *seed) {
@@ -34,7 +35,7 @@ static nsvcd_pose random_pose(uint32_t *seed) {
   return pose_of(x, y, z, qx, qy, qz, 1);
 }
 
-// Fills in how the mug, a, and the rack, b, move. poses, b_poses: (POSES).
+// Fills in how the mug, a, and the rack, b, move. poses: (POSES), b_poses: (B_POSES).
 static void pose_question(uint32_t number, nsvcd_pose *poses, nsvcd_pose *b_poses,
                           nsvcd_question *question) {
   uint32_t seed = number * 2654435769u;

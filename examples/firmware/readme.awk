@@ -1,8 +1,13 @@
 # readme.awk - holds the flash that README names against rows of the table: README.md, then files of rows.
-match($0, /in [0-9]+ KB of flash by proof, in [0-9]+ by the network/) {
-  split(substr($0, RSTART, RLENGTH), word, " ")
-  named["proof"] = word[2]
-  named["network"] = word[9]
+# The sentence may be broken into lines.
+FILENAME ~ /README/ {
+  gsub(/^ +/, "")
+  text = text " " $0
+  if (match(text, /the proof takes [0-9]+ KB of flash, the network [0-9]+\./)) {
+    split(substr(text, RSTART, RLENGTH), word, " ")
+    named["proof"] = word[4]
+    named["network"] = word[10] + 0
+  }
 }
 /^\| (proof|network) \| Cortex-M4F -O2 / {
   split($2, build, " ")
