@@ -64,6 +64,11 @@ async function createLibrary(response) {
     setMotion(motion);
     check(c.web_sweep(...scales, first, clearance, METHODS[method], times));
   }
+  // Asks how near they come, where they are free; answer() is that.
+  function distance({motion, scales}) {
+    setMotion(motion);
+    check(c.web_distance(...scales));
+  }
   // nsvcd_answer.
   function answer() {
     const at = c.web_answer();
@@ -131,5 +136,5 @@ async function createLibrary(response) {
   }
   const robot = {joint, part, pair, plan, setPoints, placeParts, checkMotion, certifyPair,
     mesh: (n) => meshAt(c.arm_mesh(n))};
-  return {encode, findings, mesh, facts, sweep, answer, certify, robot};
+  return {encode, findings, mesh, facts, sweep, distance, answer, certify, robot};
 }

@@ -124,15 +124,20 @@ function showAnswer() {
   if (answer)
     showVerdict(...answer.description);
   showTime(answer && answer.microseconds);
-  show('contact-time', timed ? `t = ${contactTime(answer).toFixed(3)}` : null);
+  // Of what is free: where they come nearest, once nothing moves.
+  const nearest = answer?.closest?.nearest ?? (witness ? answer.nearest : null);
+  show('contact-name', answer?.verdict === VERDICT.FREE && !isArm() ? 'nearest at' : 'contact at');
+  show('contact-time', timed ? `t = ${contactTime(answer).toFixed(3)}` :
+    nearest ? `t = ${nearest.time.toFixed(3)}` : null);
   // Of a robot's hit it is not told whether it is the first.
   show('free-until', known && !(isArm() && timed) ? `t = ${answer.time.low.toFixed(3)}` : null);
-  show('apart', known && answer.distance.low > 0 && Number.isFinite(answer.distance.low) ?
-    `${(1000 * answer.distance.low).toPrecision(2)} mm` : null);
-  show('point', witness ? numbers(answer.nearest.point, 3) : null);
-  show('normal', witness ? numbers(answer.nearest.normal, 2) : null);
+  const apart = (answer?.closest ?? answer)?.distance.low;
+  show('apart', known && apart > 0 && Number.isFinite(apart) ?
+    `${+(1000 * apart).toPrecision(answer.closest ? 4 : 2)} mm` : null);
+  show('point', nearest ? numbers(nearest.point, 3) : null);
+  show('normal', nearest ? numbers(nearest.normal, 2) : null);
   for (const which of [0, 1])
-    show(`triangle-${which}`, witness ? answer.nearest.triangles[which] : null);
+    show(`triangle-${which}`, nearest ? nearest.triangles[which] : null);
 }
 
 // How long the page takes until then is what test_page.py prints.
@@ -162,9 +167,23 @@ function askArm() {
   showAnswer();
 }
 
+// Before a file is answered about that is hardly in metres.
+function askUnit(which) {
+  const [scale, why] = unitsOffer(which) ?? [bodies[which].scale, ''];
+  answer = null;
+  showVerdict('doubt', 'In which unit?', `${bodies[which].name} would be ${
+    +extentOf(bodies[which]).toPrecision(3)} m long. ${why.split(':')[0].split('?')[0]}.`);
+  show('unit-use', `Use the scale ${scale}`);
+  showAnswer();
+}
+
 function ask(milliseconds, batches) {
   if (isArm())
     return askArm();
+  const doubted = bodies.findIndex(({unsure}) => unsure);
+  find('unit').hidden = doubted < 0;
+  if (doubted >= 0)
+    return askUnit(doubted);
   const asked = question();
   try {
     const start = performance.now();
@@ -178,6 +197,21 @@ function ask(milliseconds, batches) {
   } catch (error) {
     answer = null;
     showVerdict('doubt', 'Not answered', error.message);
+  }
+  showAnswer();
+}
+
+// Fills in how near they come, where they are proven free. It takes longer than to know that.
+function measure() {
+  if (isArm() || answer?.verdict !== VERDICT.FREE || answer.by !== BY.PROOF)
+    return;
+  try {
+    library.distance(question());
+    const closest = library.answer();
+    if (closest.verdict === VERDICT.FREE && closest.distance.high < Infinity)
+      answer.closest = closest;
+  } catch (error) {
+    return;  // the answer stands without it
   }
   showAnswer();
 }
@@ -253,6 +287,10 @@ function prove() {
     'proves one, not that it is the first';
 }
 
+// Where a file is that the page shows: the first scene's are in the repository, the others' in a proof.
+const pathOf = ({name, dropped}, which) => dropped ? name :
+  current === 'mug' ? `examples/assets/${name}` : `${'ab'[which]}.obj`;
+
 // A tar file.
 function pack(files) {
   const blocks = files.flatMap(([name, bytes]) => {
@@ -275,6 +313,8 @@ function save() {
   link.href = URL.createObjectURL(pack(proofFiles));
   link.download = 'proof.tar';
   link.click();
+  show('copied', `Anyone can check it, without this library: cc -O2 examples/verify/verify.c -lm -o verify; tar xf proof.tar; ./verify ${
+    isArm() ? 'arm.txt .' : `proof.txt .${question().clearance ? ` --clearance ${question().clearance}` : ''}`}`);
   setTimeout(URL.revokeObjectURL, 60000, link.href);
 }
 
@@ -467,6 +507,7 @@ function settle(rounds) {
   if (rounds === 0)
     return;
   ask(1.5, 31);
+  measure();
   if (rounds > 1)
     settled = setTimeout(settle, 250, rounds - 1);
 }
@@ -654,9 +695,16 @@ async function loadFiles(which, files) {
   if (isArm())
     openScene('mug');
   const faults = list.length > 2 ? ['Of more than two files the first two are taken'] : [];
-  for (const [i, file] of list.slice(0, 2).entries())
-    faults.push(await loadFile(list.length === 1 ? which : i, file));
+  for (const [i, file] of list.slice(0, 2).entries()) {
+    const at = list.length === 1 ? which : i;
+    faults.push(await loadFile(at, file));
+    bodies[at].unsure = faults.at(-1) === '' && unitsOffer(at) !== null;
+  }
+  bodies.forEach((body, i) => body.unsure &&= unitsOffer(i) !== null);  // beside the other one
+  changed(true);
   bodies.forEach((_, i) => showBody(i));
+  if (bodies.some(({dropped}) => dropped))
+    show('note', `${bodies[0].name} moves, ${bodies[1].name} rests.`);
   notify(faults.filter((fault) => fault).join('. '));
 }
 
@@ -680,7 +728,7 @@ const dragEnd = () => {
 };
 
 function setScale(which, scale) {
-  bodies[which].scale = scale;
+  Object.assign(bodies[which], {scale, unsure: false});
   bodies.forEach((_, i) => showBody(i));
   if (scene)
     loadGround();
@@ -720,9 +768,10 @@ function openScene(name) {
   document.body.dataset.scene = name;
   files?.forEach(([file, source, body], which) => {
     loadBody(which, file, sourceOf(source), baked[body]);
-    Object.assign(bodies[which], {scale: scales[which], dropped: false});
+    Object.assign(bodies[which], {scale: scales[which], dropped: false, unsure: false});
     find(`drop-${which}`).querySelector('.error').textContent = '';
   });
+  show('copied', '');
   if (files)
     bodies.forEach((_, which) => showBody(which));
   for (const link of document.querySelectorAll('#gallery a'))
@@ -1006,6 +1055,15 @@ function listen() {
   find('reset-view').addEventListener('click', resetView);
   find('reset-motion').addEventListener('click', resetMotion);
   find('save').addEventListener('click', save);
+  find('unit-use').addEventListener('click', () => {
+    const which = bodies.findIndex(({unsure}) => unsure);
+    setScale(which, unitsOffer(which)?.[0] ?? bodies[which].scale);
+    refit();
+  });
+  find('unit-keep').addEventListener('click', () => {
+    bodies.find(({unsure}) => unsure).unsure = false;
+    changed(true);
+  });
   find('options').addEventListener('input', () => {
     showOptions();
     changed(true);
@@ -1014,6 +1072,16 @@ function listen() {
     writeLink();
     await navigator.clipboard?.writeText(location.href).catch(() => {});
     notify('The link is copied, and stands in the address bar.');
+  });
+  find('copies').addEventListener('click', async ({target}) => {
+    if (!target.value)
+      return;
+    const text = AS_TEXT[target.value](question(), bodies.map(pathOf));
+    await navigator.clipboard?.writeText(text).catch(() => {});
+    const isOurs = bodies.every(({dropped}) => !dropped);
+    show('copied', `Copied, for the folder of ${current === 'mug' && isOurs ? 'the repository' : isOurs ?
+      'a.obj and b.obj of a saved proof' : 'your files'}.`);
+    find('copied').dataset.text = text;
   });
   // its own address: by now the page may have written the last state over it
   addEventListener('hashchange', ({newURL}) => openAddress(new URL(newURL).hash));

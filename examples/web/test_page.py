@@ -622,6 +622,17 @@ class Page(Hands):
         self.drop(0, [["part.obj", cube(60)]])  # 120 mm
         self.assertIn("120 × 120 × 120 m", self.text("drop-0"))
         self.assertIn("millimetres: use 0.001", self.part(0, "units").text)
+        self.assertEqual(self.text("verdict-title"), "In which unit?")  # before any answer
+        self.assertIn("part.obj would be 120 m long", self.text("verdict-text"))
+        self.find("unit-keep").click()
+        self.until(lambda: self.text("verdict-title") == "Hit")
+        self.assertFalse(self.find("unit").is_displayed())
+        self.drop(0, [["part.obj", cube(60)]])
+        self.assertIn("part.obj moves, dish_rack.obj rests", self.text("note"))
+        self.find("unit-use").click()
+        self.frames()
+        self.assertFalse(self.find("unit").is_displayed())
+        self.drop(0, [["part.obj", cube(60)]])
         self.part(0, "units").click()
         self.frames()
         self.assertIn("0.12 × 0.12 × 0.12 m", self.text("drop-0"))
@@ -634,6 +645,52 @@ class Page(Hands):
         self.assertIn("use 0.001", self.part(0, "units").text, "they differ too much")
         self.drop(1, [["tiny.obj", cube(0.0001)]])
         self.assertIn("1000", self.part(1, "units").text)
+
+    def test_free_says_where_it_is_nearest(self):
+        self.set_poses(*HIGH)
+        self.until(lambda: self.text("contact-name") == "nearest at" and self.text("point") != "–")
+        poses = [",".join(pose.split()) for pose in HIGH]
+        out = subprocess.run([SVCD, "sweep", ASSETS / "mug.obj", ASSETS / "dish_rack.obj", f"--from={poses[0]}",
+                              f"--to={poses[1]}", "--measure", "1e-5"], capture_output=True, text=True).stdout
+        low, high = re.search(r"clearance +(\S+) to (\S+) m", out).groups()
+        shown = float(self.text("apart").split()[0]) / 1000
+        self.assertLess(float(low) - 1e-4, shown)
+        self.assertLess(shown, float(high) + 1e-4)
+        self.set_poses(*HIGH[::-1])
+        self.until(lambda: self.text("point") != "–")
+        self.click("#gallery a")
+        self.until(lambda: self.text("contact-name") == "contact at")
+
+    def test_copied_questions_run(self):
+        """What is copied for a terminal, for Python and for C says what the page says."""
+        def copied(language: str) -> str:
+            self.click(f"#copies [value={language}]")
+            self.until(lambda: self.find("copied").get_attribute("data-text"))
+            return self.find("copied").get_attribute("data-text")
+
+        root = Path(__file__).resolve().parents[2]
+        shown = float(self.text("contact-time").split()[-1])
+        for poses, clearance in ((None, 0), (HIGH, 0), (HIGH, 250)):
+            if poses:
+                self.set_poses(*poses)
+            self.set("clearance", clearance)
+            verdict = "free" if self.text("verdict-title") == "Free" else "hit"
+            command = ["sh", "-c", copied("svcd").replace("svcd", str(SVCD), 1)]
+            out = subprocess.run(command, capture_output=True, text=True, cwd=root)
+            self.assertEqual(out.stdout[:len(verdict)], verdict, (command, out))
+            with tempfile.TemporaryDirectory() as folder:
+                (Path(folder) / "q.c").write_text(copied("C"))
+                build = ["cc", "-O0", "-DNSVCD_NO_DISPATCH", "-Wall", "-Werror", "-I.", f"{folder}/q.c", "-lm", "-o", f"{folder}/q"]
+                self.assertEqual(subprocess.run(build, capture_output=True, text=True, cwd=root).stderr, "")
+                out = subprocess.run([f"{folder}/q"], capture_output=True, text=True, cwd=root).stdout
+            self.assertEqual(out.split(",")[0], verdict)
+            if clearance == 0 and verdict == "hit":
+                self.assertAlmostEqual(float(out.split()[-1]), shown, delta=0.011)
+            compile(copied("Python"), "copied", "exec")
+            if (root / "build/_neuralsvcd.so").exists():
+                out = subprocess.run([sys.executable, "-c", copied("Python")], capture_output=True, text=True, cwd=root,
+                                     env={**os.environ, "PYTHONPATH": str(root / "examples/python")})
+                self.assertEqual(out.stdout.split()[:1], [verdict], out)
 
     def test_findings_are_those_of_info(self):
         lines = cube(0.1).splitlines()

@@ -168,6 +168,15 @@ nsvcd_result EXPORT(web_sweep)(float scale_a, float scale_b, float first, float 
   return result;
 }
 
+// How near do they come, if the last web_sweep found them free? web_answer is the distance's then.
+nsvcd_result EXPORT(web_distance)(float scale_a, float scale_b) {
+  nsvcd_question question = make_question(scale_a, scale_b, 0);
+  question.ask = NSVCD_ASK_DISTANCE;
+  question.to = 1e-4f * (scale_a * sides[0].facts.radius + scale_b * sides[1].facts.radius);
+  question.work = 100000;
+  return nsvcd_sweep(&question, workspace, workspace_size, &answer);
+}
+
 // Once for each mesh.
 static nsvcd_result build_tree(side *s) {
   const size_t size = nsvcd_tree_size(&s->mesh);
