@@ -5,6 +5,7 @@ import copy
 import functools
 import gc
 import hashlib
+import importlib
 import io
 import os
 import pickle
@@ -16,7 +17,6 @@ import sys
 import tempfile
 import threading
 import time
-import types
 import unittest
 import warnings
 import weakref
@@ -1983,15 +1983,22 @@ class Layouts(unittest.TestCase):
     """The module as it stands, but for one mistake, does not load."""
 
     def load(self, old: str, new: str) -> None:
-        text = Path(nsvcd.__file__).read_text()
-        self.assertEqual(text.count(old), 1, old)
-        module = types.ModuleType("changed")
-        module.__file__ = nsvcd.__file__
-        sys.modules["changed"] = module  # where dataclasses look
-        try:
-            exec(compile(text.replace(old, new), "changed", "exec"), module.__dict__)
-        finally:
-            del sys.modules["changed"]
+        with tempfile.TemporaryDirectory() as folder:
+            package = Path(folder) / "changed"
+            shutil.copytree(Path(nsvcd.__file__).parent, package, ignore=shutil.ignore_patterns("__pycache__"))
+            shutil.copy(nsvcd._library._library._name, package / "_neuralsvcd.abi3.so")
+            texts = {file: file.read_text() for file in package.glob("*.py")}
+            self.assertEqual(sum(text.count(old) for text in texts.values()), 1, old)
+            for file, text in texts.items():
+                file.write_text(text.replace(old, new))
+            sys.path.insert(0, folder)
+            try:
+                importlib.import_module("changed")
+            finally:
+                sys.path.remove(folder)
+                for name in [name for name in sys.modules if name.split(".")[0] == "changed"]:
+                    del sys.modules[name]
+                importlib.invalidate_caches()
 
     def test_mistakes(self) -> None:
         self.load("verdict=c_int, by=c_int", "verdict=c_int, by=c_int")

@@ -34,8 +34,12 @@ class Kind(str, enum.Enum):
     HIT = "hit"
     NEAR = "near"
     INSIDE = "inside"
-    __str__ = str.__str__
-    __format__ = str.__format__
+
+    def __str__(self) -> str:
+        return str.__str__(self)
+
+    def __format__(self, form: str) -> str:
+        return str.__format__(self, form)
 
 
 _KINDS = tuple(Kind)  # from 1

@@ -1,0 +1,87 @@
+# SPDX-License-Identifier: MIT
+"""Answers that are proven to others."""
+from __future__ import annotations
+
+import ctypes
+from ctypes import byref, c_void_p
+from typing import Any, NamedTuple, Optional
+
+from numpy.typing import ArrayLike
+
+from .words import NO_TRIANGLE, _number_of, Verdict, _VERDICTS, Why, _WHYS
+from ._structs import _Answer, _Certificate, _CertifyOptions
+from ._library import _library
+from .errors import _check
+from ._arrays import _address, _filled, _memory
+from .meshes import _c_mesh
+from .answers import Answer
+from .sweeps import Options, _question
+
+
+class Tree:
+    """A mesh as certify takes it: nsvcd_tree. It does not change; threads may share it; it can be pickled and copied.
+
+    vertices   (n, 3) metres
+    triangles  (m, 3) integers
+    """
+
+    __slots__ = ("_mesh", "_memory", "_address")
+
+    def __init__(self, vertices: ArrayLike, triangles: ArrayLike) -> None:
+        self._mesh = _c_mesh(vertices, triangles)
+        size = _library.nsvcd_tree_size(byref(self._mesh))
+        self._memory = _memory(size)
+        tree = c_void_p()
+        _check(_library.nsvcd_tree_build(byref(self._mesh), _address(self._memory), size, byref(tree)))
+        self._address = tree.value
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Tree, self._mesh.kept
+
+
+class Certificate(NamedTuple):
+    """What was proven: nsvcd_certificate.
+
+    verdict  free or hit: the bytes prove it; undecided: there are none
+    why      ... since the visits were spent, or they come too near to tell
+    inside   a hit, for a corner of one is inside of the other
+    time     in [0, 1], of a hit: a contact, which need not be the first
+    bytes    the proof, for nsvcd_verify and examples/verify
+    visits   steps that were taken
+    """
+    verdict: Verdict
+    why: Why
+    inside: bool
+    time: float
+    bytes: bytes
+    visits: int
+
+
+def certify(a: Tree, b: Tree, poses_a: Optional[ArrayLike] = None, poses_b: Optional[ArrayLike] = None, *,
+            times_a: Optional[ArrayLike] = None, times_b: Optional[ArrayLike] = None, scale_a: float = 1,
+            scale_b: float = 1, clearance: float = 0, answer: Optional[Answer] = None, visits: int = 0) -> Certificate:
+    """Do two meshes hit each other? Poses, times and scales as sweep has them; what is answered is proven to others.
+
+    clearance  metres: to come as near as this is a hit
+    answer     of sweep, where a hit is looked for first; it is not believed
+    visits     steps that may be taken; 1000000
+    """
+    question = _question(a, b, poses_a, poses_b, times_a, times_b, scale_a, scale_b, Options(clearance=clearance), Tree)
+    options = _filled(_CertifyOptions, visits=visits)
+    if answer is not None:
+        named = answer.nearest
+        triangles = (NO_TRIANGLE if k is None else k for k in (named.triangle_a, named.triangle_b))
+        told = _Answer(verdict=_number_of(answer.verdict), inside=answer.inside)
+        told.nearest.time, (told.nearest.triangle_a, told.nearest.triangle_b) = named.time, triangles
+        options.answer = ctypes.addressof(told)
+    size = _library.nsvcd_certify_workspace_size(byref(question), a._address, b._address)
+    workspace = _memory(size)
+    made = _Certificate(size=1 << 20)  # more than most take
+    room = 0
+    while room < made.size:
+        room = made.size
+        data = _memory(room)
+        _check(_library.nsvcd_certify(byref(question), a._address, b._address, byref(options), _address(workspace),
+                                      size, _address(data), room, byref(made)))
+    return Certificate(_VERDICTS[made.verdict], _WHYS[made.why], bool(made.inside), made.time,
+                       data[:made.size].tobytes(), made.visits)

@@ -1,0 +1,418 @@
+# SPDX-License-Identifier: MIT
+"""Motions of joints: checked, found, merged."""
+from __future__ import annotations
+
+import ctypes
+import math
+from collections.abc import Callable, Sequence
+from ctypes import byref, c_double, c_float, c_int, c_size_t, c_uint32, c_uint64, c_void_p
+from typing import Any, NamedTuple, Optional
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from .words import JointKind, LEAVE_OUT, _number_of, RouteStatus, Verdict, _VERDICTS, Why, _WHYS
+from ._structs import (
+    _Allowance, _CheckAnswer, _CheckOptions, _Cone, _Joint, _JointMotion, _NearestFreeOptions, _PairCounts, _Part,
+    _PartialMotion, _Proximity, _ProximityOptions, _ReachAnswer, _ReachOptions, _ReachProblem, _RouteAnswer,
+    _RouteOptions, _RouteProblem, _Scene, _STOP)
+from ._library import _library
+from .errors import _check
+from ._arrays import (
+    _address, _cancels, _doubles, Doubles, _filled, Floats, _floats, _IDENTITY, _indices, _memory, _number, _vector,
+    Vector)
+from .bodies import Body
+from .motions import _pose_of
+from .answers import Range
+
+
+class Joint(NamedTuple):
+    """nsvcd_joint. Joint i carries link i + 1; link 0 is the world.
+
+    parent         the link that it is on
+    origin, axis   where it is in that link, a pose (7); any length but 0
+    low, high      limits, radians or metres; not read of CONTINUOUS
+    speed, acceleration  what a route keeps to; 0: 1
+    mimic          the index of the joint that this one mimics; its value is always multiplier * that of the other + offset
+    """
+    parent: int
+    origin: ArrayLike = _IDENTITY
+    axis: ArrayLike = (0.0, 0.0, 1.0)
+    kind: JointKind = JointKind.REVOLUTE
+    low: float = -math.pi
+    high: float = math.pi
+    speed: float = 0
+    acceleration: float = 0
+    mimic: Optional[int] = None
+    multiplier: float = 1
+    offset: float = 0
+
+
+class Part(NamedTuple):
+    """A body on a link: nsvcd_part."""
+    body: Body
+    link: int = 0
+    pose: ArrayLike = _IDENTITY
+    scale: float = 0
+
+
+class Motion(NamedTuple):
+    """nsvcd_partial_motion: a motion of some of a robot's joints, on a clock of its own.
+
+    joints         their indices, in the order of the points' columns
+    points, degree, times  as `Robot.check` takes them
+    delay          seconds, added to its times
+    """
+    joints: ArrayLike
+    points: ArrayLike
+    degree: int = 1
+    times: Optional[ArrayLike] = None
+    delay: float = 0
+
+
+class Checked(NamedTuple):
+    """nsvcd_check_answer.
+
+    verdict       FREE: at all times of the joints' own motion
+    why           it is UNDECIDED
+    pair          of a HIT, or of what is UNDECIDED: its index, or None
+    piece, fraction  where in the motion, or None; of a HIT, which need not be the first
+    point, normal of a HIT
+    joint         one that leaves its limits, or None
+    placed, sweeps  what it took
+    free_until    seconds: free before that; with `to_time` a HIT follows at once
+    cone          that an axis leaves, or may leave: its index, or None; there is no pair then, and no point
+    """
+    verdict: Verdict
+    why: Why
+    pair: Optional[int]
+    piece: Optional[int]
+    fraction: float
+    point: Optional[Vector]
+    normal: Optional[Vector]
+    joint: Optional[int]
+    placed: int
+    sweeps: int
+    free_until: float
+    cone: Optional[int]
+
+
+class Proximity(NamedTuple):
+    """nsvcd_proximity: two parts of a pair that are near each other.
+
+    verdict, why   HIT: they touch
+    distance       a bracket, metres
+    depth          of a HIT: a push_out of the first by this along the normal parts them; inf: none was found. Else 0
+    point, normal  on the second part, and from it to the first
+    slope          (F): how the distance grows with each joint, or the depth shrinks
+    """
+    pair: int
+    verdict: Verdict
+    why: Why
+    distance: Range
+    depth: float
+    point: Vector
+    normal: Vector
+    slope: Doubles
+
+
+class Reached(NamedTuple):
+    """nsvcd_reach_answer.
+
+    solutions  (n, F): configurations that have the tool at its target, the nearest to the start first
+    starts, reached, touching  how many starts there were, came to the target, and were not proven free there
+    best       (F): the first solution; else one that touches; else the one nearest to the target
+    position_error, angle_error  metres, radians: how far the tool is off its target there
+    check      what is wrong with the best if it touches, else None
+    """
+    solutions: Doubles
+    starts: int
+    reached: int
+    touching: int
+    best: Doubles
+    position_error: float
+    angle_error: float
+    check: Optional[Checked]
+
+
+class Route(NamedTuple):
+    """nsvcd_route_answer.
+
+    points, times  (2 pieces + 1, F) and (pieces + 1): pieces of degree 2; None unless FOUND
+    """
+    status: RouteStatus
+    goal: Optional[int]
+    points: Optional[Doubles]
+    times: Optional[Doubles]
+    stops: int
+    duration: float
+    unhindered: float
+    check: Checked
+    nodes: int
+    checks: int
+    proven: int
+    looks: int
+
+    def at(self, times: ArrayLike) -> Doubles:
+        """The joints at times (n), seconds: (n, F)."""
+        if self.points is None or self.times is None:
+            raise ValueError("no route was found")
+        t = np.clip(np.asarray(times, np.float64), 0, self.duration)
+        if len(self.times) == 1:
+            return np.broadcast_to(self.points[0], (*t.shape, len(self.points[0]))).copy()
+        piece = np.clip(np.searchsorted(self.times, t, "right") - 1, 0, len(self.times) - 2)
+        s = ((t - self.times[piece]) / (self.times[piece + 1] - self.times[piece]))[..., None]
+        a, b, c = (self.points[2 * piece + k] for k in range(3))
+        return np.asarray((1 - s) ** 2 * a + 2 * s * (1 - s) * b + s ** 2 * c)
+
+
+def _index_or_none(index: int) -> Optional[int]:
+    return None if index == LEAVE_OUT else index
+
+
+def _checked(c: Any) -> Checked:
+    is_hit = _VERDICTS[c.verdict] is Verdict.HIT and c.pair != LEAVE_OUT
+    return Checked(_VERDICTS[c.verdict], _WHYS[c.why], _index_or_none(c.pair), _index_or_none(c.piece), c.fraction,
+                   _vector(c.contact.point) if is_hit else None, _vector(c.contact.normal) if is_hit else None,
+                   _index_or_none(c.joint), c.placed, c.sweeps, c.free_until, _index_or_none(c.cone))
+
+
+def _motion_of(points: ArrayLike, joints: int, degree: int, times: Optional[ArrayLike], kept: list[Any]) -> Any:
+    """A motion of so many joints; what it points to is kept."""
+    rows = _doubles(np.atleast_2d(np.asarray(points)), (None, joints), "points")
+    degree = _number(c_size_t, degree, "degree")
+    if degree < 1 or (len(rows) - 1) % degree:
+        raise ValueError(f"points: pieces of degree {degree} have a multiple of that, and 1, not {len(rows)}")
+    pieces = (len(rows) - 1) // degree
+    kept.append(rows)
+    motion = _JointMotion(pieces, degree, _address(rows))
+    if times is not None and pieces:
+        kept.append(_doubles(times, (pieces + 1,), "times"))
+        motion.times = _address(kept[-1])
+    return motion
+
+
+class Robot:
+    """Joints, parts on their links, and which parts can meet: nsvcd_scene and its checker. One thread at a time.
+
+    pairs  (P, 2) of parts, on links that differ; None: all but those that one joint separates, as `find_pairs` says.
+           Also those that touch in all samples, which is no proof that they always do
+    clearances  (P) metres that each of these pairs keeps, beside what `check` and `route` are asked for; None: 0
+    allowances  (pair, joints, metres): where pairs may touch: as near as that to where they are in a configuration
+    cones  (part, axis, direction, radians): an axis of a part, and where it is to point, in the world, to within that
+    """
+
+    def __init__(self, joints: Sequence[Joint], parts: Sequence[Part], pairs: Optional[ArrayLike] = None, *,
+                 clearances: Optional[ArrayLike] = None, allowances: Sequence[tuple[int, ArrayLike, float]] = (),
+                 cones: Sequence[tuple[int, ArrayLike, ArrayLike, float]] = ()) -> None:
+        if (clearances is not None or allowances) and pairs is None:
+            raise TypeError("clearances, allowances: of which pairs?")
+        self._clearances: Optional[NDArray[np.float32]] = None
+        self.joint_count, self.part_count = len(joints), len(parts)
+        self._joints = (_Joint * max(len(joints), 1))(*(
+            _Joint(_number_of(JointKind(j.kind)), _number(c_uint32, j.parent, "parent"), _pose_of(j.origin, "origin"),
+                   (c_float * 3)(*_floats(j.axis, (3,), "axis").tolist()), j.low, j.high, j.speed, j.acceleration,
+                   0 if j.mimic is None else _number(c_uint32, j.mimic + 1, "mimic"), j.multiplier, j.offset)
+            for j in joints))
+        self._bodies = [part.body for part in parts]
+        self._parts = (_Part * max(len(parts), 1))(*(
+            _Part(part.body._address, _number(c_uint32, part.link, "link"), _pose_of(part.pose, "pose"), part.scale)
+            for part in parts))
+        if clearances is not None and pairs is not None:
+            self._clearances = _floats(clearances, (len(_indices(pairs, 2, "pairs")),), "clearances")
+        self._near = [_doubles(joints, (self.joint_count,), "allowances") for _, joints, _ in allowances]
+        self._allowances = (_Allowance * max(len(allowances), 1))(*(
+            _Allowance(_number(c_size_t, pair, "allowances"), _address(near), metres)
+            for (pair, _, metres), near in zip(allowances, self._near)))
+        self._cones = (_Cone * max(len(cones), 1))(*(
+            _Cone(_number(c_uint32, part, "cones"), *((c_float * 3)(*_floats(x, (3,), "cones").tolist()) for x in (axis, direction)), angle)
+            for part, axis, direction, angle in cones))
+        self._cone_count = len(cones)
+        self._open(np.empty((0, 2), np.uint32) if pairs is None else pairs)
+        if pairs is None:
+            asked, _, touching = self.find_pairs()
+            self._open(np.concatenate([asked, touching]))
+
+    def _open(self, pairs: ArrayLike) -> None:
+        self._pairs = _indices(pairs, 2, "pairs")
+        self._scene = _Scene(ctypes.addressof(self._joints), self.joint_count, ctypes.addressof(self._parts),
+                             self.part_count, _address(self._pairs), len(self._pairs),
+                             None if self._clearances is None else _address(self._clearances),
+                             ctypes.addressof(self._allowances), len(self._near), ctypes.addressof(self._cones), self._cone_count)
+        size = _library.nsvcd_checker_size(byref(self._scene))
+        self._memory = _memory(size)
+        self._checker = c_void_p()
+        _check(_library.nsvcd_checker_open(byref(self._scene), _address(self._memory), size, byref(self._checker)))
+
+    def _held(self, held: Optional[ArrayLike]) -> Optional[NDArray[np.bool_]]:
+        if held is None:
+            return None
+        stays = np.array(held, dtype=np.bool_)
+        if stays.shape != (self.joint_count,):
+            raise ValueError(f"held: expected {self.joint_count} values")
+        return stays
+
+    @property
+    def pairs(self) -> NDArray[np.uint32]:
+        """Those that are asked: (P, 2)."""
+        return self._pairs.copy()
+
+    def find_pairs(self, draws: int = 0, seed: int = 0) -> tuple[NDArray[np.uint32], ...]:
+        """Pairs (n, 2) that can meet, that one joint separates, and that touch in all draws: nsvcd_find_pairs."""
+        most = self.part_count * self.part_count
+        found = np.empty((max(most, 1), 2), np.uint32)
+        counts = _PairCounts()
+        _check(_library.nsvcd_find_pairs(self._checker, _number(c_size_t, draws, "draws"),
+                                         _number(c_uint64, seed, "seed"), _address(found), most, byref(counts)))
+        ends = np.cumsum([counts.asked, counts.adjacent, counts.touching]).tolist()
+        return tuple(found[first:last].copy() for first, last in zip([0, *ends], ends))
+
+    def proximities(self, joints: ArrayLike, *, max_distance: float = 0, to: float = 0, max_depth: float = 0, work: int = 0) -> list[Proximity]:
+        """All pairs that are near in a configuration: nsvcd_proximities."""
+        row = _doubles(joints, (self.joint_count,), "joints")
+        rows = (_Proximity * max(len(self._pairs), 1))()
+        count = c_size_t()
+        options = _filled(_ProximityOptions, max_distance=max_distance, to=to, max_depth=max_depth, work=work)
+        _check(_library.nsvcd_proximities(self._checker, _address(row), byref(options), rows, len(self._pairs), byref(count)))
+        return [Proximity(g.pair, _VERDICTS[g.verdict], _WHYS[g.why], Range(g.distance.low, g.distance.high), g.depth, _vector(g.contact.point),
+                    _vector(g.contact.normal), np.array(g.slope[:self.joint_count])) for g in rows[:count.value]]
+
+    def nearest_free(self, joints: ArrayLike, *, clearance: float = 0, farthest: float = 0, seed: int = 0) -> Optional[Doubles]:
+        """A configuration near by that is proven free, or None: nsvcd_nearest_free."""
+        row = _doubles(joints, (self.joint_count,), "joints")
+        out = np.empty(self.joint_count)
+        is_found = c_int()
+        options = _filled(_NearestFreeOptions, clearance=clearance, seed=seed)
+        options.farthest = farthest
+        _check(_library.nsvcd_nearest_free(self._checker, _address(row), byref(options), _address(out), byref(is_found)))
+        return out if is_found.value else None
+
+    def reach(self, start: ArrayLike, target: ArrayLike, link: int, tool: ArrayLike = _IDENTITY, *, target_link: int = 0,
+              half: ArrayLike = (0, 0, 0), free_axis: ArrayLike = (0, 0, 0), most: int = 16, position_tolerance: float = 0,
+              angle_tolerance: float = 0, apart: float = 0, starts: int = 0, seed: int = 0, clearance: float = 0,
+              may_touch: bool = False, held: Optional[ArrayLike] = None) -> Reached:
+        """Configurations, at most `most`, that have a tool, a pose on a link, at a target: nsvcd_reach.
+
+        held    (F) true: the joint stays where the start has it
+        """
+        row = _doubles(start, (self.joint_count,), "start")
+        out = np.empty((most, self.joint_count))
+        problem, answer = _ReachProblem(start=_address(row)), _ReachAnswer()
+        problem.link, problem.target_link = _number(c_uint32, link, "link"), _number(c_uint32, target_link, "target_link")
+        problem.tool, problem.target = _pose_of(tool, "tool"), _pose_of(target, "target")
+        problem.half[:] = _floats(half, (3,), "half").tolist()
+        problem.free_axis[:] = _floats(free_axis, (3,), "free_axis").tolist()
+        stays = self._held(held)
+        problem.held = None if stays is None else _address(stays)
+        options = _filled(_ReachOptions, starts=starts, seed=seed, clearance=clearance, may_touch=int(may_touch))
+        options.position_tolerance, options.angle_tolerance, options.apart = position_tolerance, angle_tolerance, apart
+        _check(_library.nsvcd_reach(self._checker, byref(problem), byref(options), _address(out), most, byref(answer)))
+        touches = not answer.solutions and answer.touching > 0
+        return Reached(out[:answer.solutions].copy(), answer.starts, answer.reached, answer.touching,
+                       np.array(answer.best[:self.joint_count]), answer.position_error, answer.angle_error,
+                       _checked(answer.check) if touches else None)
+
+    def handed_over(self, joints: ArrayLike, part: int, link: int) -> Part:
+        """A part as another link would carry it from where it is, for a Robot to come: nsvcd_reparent."""
+        row = _doubles(joints, (self.joint_count,), "joints")
+        out = _Part()
+        _check(_library.nsvcd_reparent(self._checker, _address(row), _number(c_size_t, part, "part"),
+                                        _number(c_uint32, link, "link"), byref(out)))
+        return Part(self._bodies[part], out.link, [*out.pose.position, *out.pose.rotation], out.scale)
+
+    def forward_kinematics(self, joints: ArrayLike) -> Floats:
+        """Where the parts are: poses (B, 7)."""
+        row = _doubles(joints, (self.joint_count,), "joints")
+        poses = np.empty((self.part_count, 7), np.float32)
+        _library.nsvcd_forward_kinematics(self._checker, _address(row), _address(poses))
+        return poses
+
+    def merge(self, motions: Sequence[Motion], rest: Optional[ArrayLike] = None) -> Motion:
+        """Motions of different joints, each on a clock of its own, as one of all joints: nsvcd_merge_motions.
+
+        rest  (F) where joints are that none of them moves
+        `check(m.points, degree=m.degree, times=m.times, to_time=0.001)` of the result m finds the first conflict.
+        """
+        kept: list[Any] = []
+        rows = (_PartialMotion * max(len(motions), 1))()
+        for row, motion in zip(rows, motions):
+            joints = np.asarray(motion.joints, np.uint32).reshape(-1)
+            kept.append(joints)
+            row.motion = _motion_of(motion.points, len(joints), motion.degree, motion.times, kept)
+            row.joints, row.joint_count = _address(joints), len(joints)
+            row.delay = motion.delay
+        resting = None if rest is None else _doubles(rest, (self.joint_count,), "rest")
+        size = _library.nsvcd_merge_motions_size(rows, len(motions), self.joint_count)
+        memory = _memory(size)
+        merged = _JointMotion()
+        _check(_library.nsvcd_merge_motions(rows, len(motions), self.joint_count,
+                                            None if resting is None else _address(resting), _address(memory), size,
+                                            byref(merged)))
+        count = merged.pieces * merged.degree + 1
+        points = np.frombuffer((c_double * (count * self.joint_count)).from_address(merged.points)).copy()
+        times = np.frombuffer((c_double * (merged.pieces + 1)).from_address(merged.times)).copy()
+        return Motion(np.arange(self.joint_count), points.reshape(count, self.joint_count), merged.degree,
+                      times if merged.pieces else None)
+
+    def check(self, points: ArrayLike, *, degree: int = 1, times: Optional[ArrayLike] = None, clearance: float = 0,
+              finest: float = 0, work: int = 0, to_time: float = 0) -> Checked:
+        """Is a motion free, as the joints make it? nsvcd_check.
+
+        points  (F): a configuration; (pieces degree + 1, F): Bezier pieces, a polyline if the degree is 1
+        times   (pieces + 1), seconds; None: each piece takes one
+        to_time seconds: of what is not free, also seek until when it is, to this precision; 0: not sought
+        """
+        kept: list[Any] = []
+        motion = _motion_of(points, self.joint_count, degree, times, kept)
+        options = _filled(_CheckOptions, clearance=clearance, finest=finest, work=work)
+        options.to_time = to_time
+        answer = _CheckAnswer()
+        _check(_library.nsvcd_check(self._checker, byref(motion), byref(options), byref(answer)))
+        return _checked(answer)
+
+    def route(self, start: ArrayLike, goals: ArrayLike, *, guess: Optional[ArrayLike] = None, clearance: float = 0,
+              seed: int = 0, nodes: int = 0, tries: int = 0, edge: float = 0, looks: int = 0, shortcuts: int = 0, smoothings: int = 0,
+              stop: Optional[Callable[[], Any]] = None, held: Optional[ArrayLike] = None) -> Route:
+        """A motion from the start (F) to a goal (F), or one of several (G, F), proven free: nsvcd_route.
+
+        guess  (n, F) a way that may be free, its ends left out
+        tries  motions asked about in search of a way, at most; 0: 4 times the nodes
+        looks  motions looked at before that, at most, if all that moves has balls; LEAVE_OUT: none
+        stop   asked before each proof and look; something true ends the search
+        held   (F) true: the joint stays where the start has it, as the goals do
+        """
+        rows = [_doubles(start, (self.joint_count,), "start"),
+                _doubles(np.atleast_2d(np.asarray(goals)), (None, self.joint_count), "goals")]
+        problem = _RouteProblem(_address(rows[0]), _address(rows[1]), len(rows[1]))
+        if guess is not None:
+            rows.append(_doubles(guess, (None, self.joint_count), "guess"))
+            problem.guess, problem.guess_count = _address(rows[2]), len(rows[2])
+        stays = self._held(held)
+        problem.held = None if stays is None else _address(stays)
+        caught: list[BaseException] = []
+        if stop:
+            asked = stop
+            problem.stop = _STOP(lambda _: _cancels(lambda _: asked(), caught, None, None))
+        options = _filled(_RouteOptions, seed=seed, clearance=clearance, nodes=nodes, tries=tries, looks=looks, shortcuts=shortcuts,
+                          smoothings=smoothings)
+        options.edge = edge
+        size = _library.nsvcd_route_size(self._checker, byref(problem), byref(options))
+        memory = _memory(size)
+        answer = _RouteAnswer()
+        code = _library.nsvcd_route(self._checker, byref(problem), byref(options), _address(memory), size,
+                                    byref(answer))
+        if caught:
+            raise caught[0]
+        _check(code)
+        points: Optional[Doubles] = None
+        times: Optional[Doubles] = None
+        is_found = answer.status == RouteStatus.FOUND
+        if is_found:
+            count = answer.motion.pieces
+            shape = (2 * count + 1, self.joint_count)
+            numbers = (c_double * math.prod(shape)).from_address(answer.motion.points)
+            points = np.frombuffer(numbers).reshape(shape).copy()
+            times = np.frombuffer((c_double * (count + 1)).from_address(answer.motion.times)).copy()
+        return Route(RouteStatus(answer.status), answer.goal if is_found else None, points, times, answer.stops,
+                     answer.duration, answer.unhindered, _checked(answer.check), answer.nodes, answer.checks,
+                     answer.proven, answer.looks)
