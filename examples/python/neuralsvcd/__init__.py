@@ -2,8 +2,8 @@
 """Does this body, moving along this trajectory, hit that body? neuralsvcd.h for Python, by ctypes.
 
     rack = Body("dish_rack.obj")             # or STL, PLY, GLB; scale=0.001: of millimetres
-    answer = sweep(mug, rack, path, options=Options(ask="first"))  # path: (k, 7), or matrices (k, 4, 4)
-    if answer.verdict == "hit": print(answer.time.high)  # when first; without options: when there is a contact
+    answer = sweep(mug, rack, path, ask="first")  # path: (k, 7), or matrices (k, 4, 4)
+    if answer.verdict == "hit": print(answer.time.high)  # when first; without `ask`: when there is a contact
 
 Units are metres and radians, time is in [0, 1]. A pose is x y z and a unit quaternion x y z w; a
 motion is an array (k, 7) of poses, uniform in time, position linear and rotation slerp in between.
@@ -26,15 +26,15 @@ from .meshes import (
 from .motions import poses_from_matrices as poses_from_matrices
 from .movers import Movers as Movers, Step as Step, WorldContact as WorldContact
 from .plans import (
-    Plan as Plan, PlanOptions as PlanOptions, Progress as Progress, Stage as Stage, plan as plan, spline as spline)
+    Plan as Plan, Progress as Progress, Stage as Stage, plan as plan, spline as spline)
 from .robots import (
     Checked as Checked, Joint as Joint, Motion as Motion, Part as Part, Proximity as Proximity, Reached as Reached,
     Robot as Robot, Route as Route)
 from .sweeps import (
-    Gradient as Gradient, Options as Options, contacts as contacts, sweep as sweep, sweep_gradient as sweep_gradient)
+    Gradient as Gradient, contacts as contacts, sweep as sweep, sweep_gradient as sweep_gradient)
 from .words import (
     Ask as Ask, By as By, Code as Code, JointKind as JointKind, LEAVE_OUT as LEAVE_OUT, Method as Method,
     Model as Model, NO_TRIANGLE as NO_TRIANGLE, PlanStatus as PlanStatus, Precision as Precision,
     RouteStatus as RouteStatus, Verdict as Verdict, Why as Why)
 from .worlds import (
-    Resident as Resident, Slide as Slide, SlideOptions as SlideOptions, World as World, WorldAnswer as WorldAnswer)
+    Resident as Resident, Slide as Slide, World as World, WorldAnswer as WorldAnswer)

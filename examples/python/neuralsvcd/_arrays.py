@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import ctypes
-import dataclasses
 import operator
 import os
 from collections.abc import Callable
 from ctypes import c_char, c_float, c_int
-from typing import Any, ClassVar, Optional, Union
+from typing import Any, Optional, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -78,13 +77,11 @@ def _number(kind: Any, value: Any, name: str) -> Any:
 
 
 def _filled(structure: Any, **values: Any) -> Any:
-    """A struct with these fields. Those that hold structs themselves are given as Options and the like."""
+    """A struct with these numbers; its other fields are 0."""
     out = structure()
     for name, kind in structure._fields_:
-        value = values.get(name)
-        if value is None:
-            continue
-        setattr(out, name, value._c if issubclass(kind, ctypes.Structure) else _number(kind, value, name))
+        if name in values:
+            setattr(out, name, _number(kind, values[name], name))
     return out
 
 
@@ -104,19 +101,6 @@ def _cancels(progress: Callable[[Any], Any], caught: list[BaseException], done: 
     except BaseException as error:  # KeyboardInterrupt too
         caught.append(error)
         return 1
-
-
-class _Options:
-    """A dataclass with the fields of a struct, and that struct."""
-    _struct: ClassVar[Any]
-    _c: Any
-
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "_c", _filled(self._struct, **vars(self)))
-
-    def __reduce__(self) -> tuple[Any, ...]:  # the struct is made anew
-        given: Any = self
-        return type(self), tuple(getattr(self, field.name) for field in dataclasses.fields(given))
 
 
 Pose = tuple[float, float, float, float, float, float, float]

@@ -15,7 +15,7 @@ from .errors import _check_question
 from ._arrays import _address, Floats, _floats
 from .bodies import Body
 from .motions import _Motion, _motion
-from .sweeps import _DEFAULTS, Options, _workspace
+from .sweeps import _asked, _workspace
 
 _WORDS = {"verdict": np.array(_VERDICTS, str), "by": np.array(_BYS, str), "why": np.array(_WHYS, str)}
 _FLAGS = ("inside", "asked", "limited")
@@ -113,7 +113,11 @@ def _first_fault(questions: NDArray[Any]) -> int:
 
 def sweep_batch(a: Bodies, b: Bodies, poses_a: Optional[ArrayLike] = None, poses_b: Optional[ArrayLike] = None, *,
                 times_a: Optional[ArrayLike] = None, times_b: Optional[ArrayLike] = None,
-                scale_a: ArrayLike = 1, scale_b: ArrayLike = 1, options: Options = _DEFAULTS) -> NDArray[Any]:
+                scale_a: ArrayLike = 1, scale_b: ArrayLike = 1,
+                ask: str = "hit", to: float = 0, to_time: float = 0, clearance: float = 0, slop: float = 0,
+                tolerance: float = 0, manifold: bool = False, surfaces: bool = False, method: str = "default",
+                work: int = 0, segments: int = 0, pairs: int = 0, model: str = "default", precision: str = "float",
+                recall: float = 0, inflate: float = 0) -> NDArray[Any]:
     """Answers n questions in one call of the library, one after the other.
 
     a, b              a body for all, or a sequence of n
@@ -122,7 +126,7 @@ def sweep_batch(a: Bodies, b: Bodies, poses_a: Optional[ArrayLike] = None, poses
     scale_a, scale_b  (n), or a number for all
 
     Returns a structured array (n) with the fields of nsvcd_answer: answers["verdict"] == "hit" is an array of bool,
-    answers["time"]["high"] one of floats, of the first contacts if options.ask is "first". Of answers["contacts"],
+    answers["time"]["high"] one of floats, of the first contacts of ask="first". Of answers["contacts"],
     (n, 4), each has contact_count; triangles may be NO_TRIANGLE; answers["opinion"]["asked"] says whether there is one.
     One after another on the same two bodies: the network is first asked where the motion before collided; see
     nsvcd_sweep_batch.
@@ -137,7 +141,9 @@ def sweep_batch(a: Bodies, b: Bodies, poses_a: Optional[ArrayLike] = None, poses
     answers = np.zeros(len(questions), _C_ANSWERS)
     if not len(questions):
         return _worded(answers)
-    questions[:] = np.frombuffer(options._c, _QUESTIONS)[0]
+    questions[:] = np.frombuffer(_asked(
+        ask, to, to_time, clearance, slop, tolerance, manifold, surfaces, method, work, segments, pairs, model,
+        precision, recall, inflate), _QUESTIONS)[0]
     side_a.write(questions["a"])
     side_b.write(questions["b"])
     code = _library.nsvcd_sweep_batch(_address(questions), len(questions), _workspace.address, _workspace.size,

@@ -15,7 +15,7 @@ from .errors import _check
 from ._arrays import _address, _filled, _memory
 from .meshes import _c_mesh
 from .answers import Answer
-from .sweeps import Options, _question
+from .sweeps import _question, _question_of
 
 
 class Tree:
@@ -66,7 +66,8 @@ def certify(a: Tree, b: Tree, poses_a: Optional[ArrayLike] = None, poses_b: Opti
     answer     of sweep, where a hit is looked for first; it is not believed
     visits     steps that may be taken; 1000000
     """
-    question = _question(a, b, poses_a, poses_b, times_a, times_b, scale_a, scale_b, Options(clearance=clearance), Tree)
+    question = _question(a, b, poses_a, poses_b, times_a, times_b, scale_a, scale_b, _question_of(clearance=clearance),
+                         Tree)
     options = _filled(_CertifyOptions, visits=visits)
     if answer is not None:
         named = answer.nearest

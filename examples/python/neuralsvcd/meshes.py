@@ -27,7 +27,7 @@ class Mass(NamedTuple):
     volume     cubic metres
     centre     (3) float32, of mass: the pivot of what moves freely
     inertia    (3) float32, of a kilogram, square metres, about the mesh's axes through that centre; times the mass, and the scale
-               squared, it is that of SlideOptions and Movers
+               squared, it is that of World.slide and Movers
     is_of_box  the mesh is open, inside out or flat, and all of this is that of its box
     """
     volume: float

@@ -92,7 +92,7 @@ class Movers:
     damping, spin_damping  (n) float32, a second: the share of its speed, and of its spin, that it loses everywhere
     asleep       (n) bool: it stays where it is until something wakes it, and costs nothing
     sleepless    (n) bool: it never falls asleep, as characters do not
-    mass, inertia, friction, restitution, clearance, margin, up, step, slope, rounds, work  as SlideOptions says; inertia and up
+    mass, inertia, friction, restitution, clearance, margin, up, step, slope, rounds, work  as World.slide says; inertia and up
                  (n, 3), rounds and work uint64, else (n) float32. What has no mass is a character
 
     What became of each in its last frame, to be read:

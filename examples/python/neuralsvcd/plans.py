@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import ctypes
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from ctypes import byref, c_float, c_void_p
-from dataclasses import dataclass
 from typing import Any, NamedTuple, Optional
 
 import numpy as np
@@ -18,10 +17,10 @@ from ._structs import (
     _struct)
 from ._library import _library
 from .errors import _check
-from ._arrays import _address, _cancels, Floats, _floats, _indices, _memory, _numeric, _Options
+from ._arrays import _address, _cancels, Floats, _floats, _indices, _memory, _filled, _numeric
 from .bodies import Body
 from .motions import _posed
-from .sweeps import _DEFAULTS, Options, sweep
+from .sweeps import _question_of
 
 
 def spline(control: ArrayLike, t: ArrayLike, derivative: int = 0) -> Floats:
@@ -44,8 +43,7 @@ def spline(control: ArrayLike, t: ArrayLike, derivative: int = 0) -> Floats:
     return out.reshape(*times.shape, points.shape[1])
 
 
-@dataclass(frozen=True)
-class Stage(_Options):
+class Stage(NamedTuple):
     """A stage of the planner: nsvcd_plan_stage. What is 0 is the default.
 
     via_points  of the trajectory
@@ -59,37 +57,6 @@ class Stage(_Options):
     iterations: int = 0
     draws: int = 0
     noise: float = 0
-    _struct = _PlanStage
-
-
-@dataclass(frozen=True)
-class PlanOptions(_Options):
-    """How a motion is planned: nsvcd_plan_options. What is 0 is the default.
-
-    seed, seeds       of all random numbers; starts, tried until one ends free: 6
-    explore, refine   the stages, MPPI and L-BFGS
-    velocity, acceleration, jerk  weights of the means of squares over the motion: 10, 2, 10
-    collision         weight of the logits' sum: 20
-    duration          seconds, which only weights the terms above: 20
-    margin            logits above minus this cost: 2
-    discrete          poses instead of sweeps
-    check             segments of the last check: 16 times the finest stage's
-    sweep             of all queries; its ask, to and to_time are not read
-    """
-    seed: int = 0
-    seeds: int = 0
-    explore: Stage = Stage()
-    refine: Stage = Stage()
-    velocity: float = 0
-    acceleration: float = 0
-    jerk: float = 0
-    collision: float = 0
-    duration: float = 0
-    margin: float = 0
-    discrete: bool = False
-    check: int = 0
-    sweep: Options = _DEFAULTS
-    _struct = _PlanOptions
 
 
 class Progress(NamedTuple):
@@ -140,7 +107,10 @@ def _view(address: int, *shape: int) -> Floats:
 def plan(bodies: Sequence[Optional[Body]], pairs: ArrayLike, kinematics: Callable[[Floats], ArrayLike], start: ArrayLike,
          goal: ArrayLike, low: ArrayLike, high: ArrayLike, *,
          jacobian: Optional[Callable[[Floats], ArrayLike]] = None,
-         progress: Optional[Callable[[Progress], Any]] = None, options: PlanOptions = PlanOptions()) -> Plan:
+         progress: Optional[Callable[[Progress], Any]] = None, seed: int = 0, seeds: int = 0, explore: Stage = Stage(),
+         refine: Stage = Stage(), velocity: float = 0, acceleration: float = 0, jerk: float = 0, collision: float = 0,
+         duration: float = 0, margin: float = 0, discrete: bool = False, check: int = 0,
+         sweep: Optional[Mapping[str, Any]] = None) -> Plan:
     """Finds a smooth trajectory of F joints on which no pair of bodies meets.
 
     bodies       B; one in no pair may be None
@@ -152,6 +122,16 @@ def plan(bodies: Sequence[Optional[Body]], pairs: ArrayLike, kinematics: Callabl
     jacobian     joints (F) -> (B, 6, F): of each body by a joint, displacement of the origin and rotation vector, world
                  axes; None: by differences of kinematics
     progress     called once in an iteration; if it returns something true, the plan is CANCELLED
+    seed, seeds  of all random numbers; starts, tried until one ends free: 6
+    explore, refine  the stages, MPPI and L-BFGS
+    velocity, acceleration, jerk  weights of the means of squares over the motion: 10, 2, 10
+    collision    weight of the logits' sum: 20
+    duration     seconds, which only weights the terms above: 20
+    margin       logits above minus this cost: 2
+    discrete     poses instead of sweeps
+    check        segments of the last check: 16 times the finest stage's
+    sweep        of all queries, keywords of `sweep`: {"clearance": 0.01}; ask, to and to_time are not among them
+
     What a callback raises ends the planning, and is raised here. A cost of collision of one's own is not bound.
     """
     first = _floats(start, (None,), "start")
@@ -187,11 +167,15 @@ def plan(bodies: Sequence[Optional[Body]], pairs: ArrayLike, kinematics: Callabl
     if jacobian:
         derive = jacobian
         problem.jacobian = _PLACE(lambda _, given, out: call(derive, "jacobian", given, out, len(kept), 6, joints))
-    size = _library.nsvcd_plan_workspace_size(byref(problem), byref(options._c))
+    options = _filled(_PlanOptions, seed=seed, seeds=seeds, velocity=velocity, acceleration=acceleration, jerk=jerk,
+                      collision=collision, duration=duration, margin=margin, discrete=bool(discrete), check=check)
+    options.explore, options.refine = (_filled(_PlanStage, **stage._asdict()) for stage in (explore, refine))
+    options.sweep = _question_of(**(sweep or {}))
+    size = _library.nsvcd_plan_workspace_size(byref(problem), byref(options))
     workspace = _memory(size)
     control = np.empty((_MAX_VIA_POINTS + 2, joints), np.float32)
     answer = _PlanAnswer()
-    code = _library.nsvcd_plan(byref(problem), byref(options._c), _address(workspace), size, _address(control),
+    code = _library.nsvcd_plan(byref(problem), byref(options), _address(workspace), size, _address(control),
                                byref(answer))
     if caught:
         raise caught[0]

@@ -2,9 +2,9 @@
 """Questions about two bodies."""
 from __future__ import annotations
 
+import functools
 import threading
 from ctypes import byref, c_float, c_int, c_size_t
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, NamedTuple, Optional, Union
 
 import numpy as np
@@ -14,7 +14,7 @@ from .words import Ask, Method, Model, Precision
 from ._structs import _Answer, _Contact, _MAX_CONTACTS, _NetworkOptions, _Question
 from ._library import _library
 from .errors import _check_question
-from ._arrays import _address, _filled, Floats, _memory, _Options
+from ._arrays import _address, _filled, Floats, _memory
 from .bodies import Body
 from .motions import _Motion, _motion
 from .answers import Answer, _answer_of, Contact, _CONTACT, _contact_of
@@ -35,55 +35,34 @@ class _Workspace(threading.local):
 _workspace = _Workspace()
 
 
-@dataclass(frozen=True)
-class Options(_Options):
-    """What is asked, and how: nsvcd_question. What is 0 is the default. Words may be given as such: ask="first".
-
-    ask        hit: do they hit at all? first: and when first? distance: and how near do they come?
-    to         metres. first: nothing moves farther than this from time.low to time.high; distance: how wide the bracket
-               may be; 0: a thousandth of the smaller body's radius
-    to_time    first: the same as a share of the motion, up to 1
-    clearance  metres: to come as near as this is a hit
-    slop       metres: a contact at the start that is no deeper does not count
-    tolerance  metres: what comes closer and does not meet may be left undecided
-    manifold   first: up to four contacts, which hold the body, are told, where else one is
-    method     proof where both bodies have triangles, else network, which knows neither first, nor a clearance or a
-               slop, and of a distance, where it is named, has an opinion: Answer.opinion.distance
-    work       units that a proof may take; 10000000, of a distance 100000
-    segments   a motion is cut into at most so many, a multiple of 16 up to 64; 64
-    Of the network:
-    pairs      of patches that it looks at, 1 to 256; 8
-    model, precision, recall  its decoder; recall: 0, 0.99, 0.999 or 0.9999
-    inflate      of patches, a share of their radii, so that the logit rises before contact; 0, or, asked for a distance, 1
-    """
-    ask: Union[Ask, str] = Ask.HIT
-    to: float = 0
-    to_time: float = 0
-    clearance: float = 0
-    slop: float = 0
-    tolerance: float = 0
-    manifold: bool = False
-    method: Union[Method, str] = Method.DEFAULT
-    work: int = 0
-    segments: int = 0
-    pairs: int = 0
-    model: Union[Model, str] = Model.DEFAULT
-    precision: Union[Precision, str] = Precision.FLOAT
-    recall: float = 0
-    inflate: float = 0
-    _struct = _Question
-
-    def __post_init__(self) -> None:
-        for name, kind in (("ask", Ask), ("method", Method), ("model", Model), ("precision", Precision)):
-            given = getattr(self, name)
-            if given not in set(kind):
-                raise ValueError(f"{name}: {given!r} is none of {', '.join(kind)}")
-            object.__setattr__(self, name, kind(given))
-        super().__post_init__()
-        self._c.network = _filled(_NetworkOptions, **vars(self))
+def _question_of(ask: str = "hit", to: float = 0, to_time: float = 0, clearance: float = 0, slop: float = 0,
+                 tolerance: float = 0, manifold: bool = False, surfaces: bool = False, method: str = "default",
+                 work: int = 0, segments: int = 0, pairs: int = 0, model: str = "default", precision: str = "float",
+                 recall: float = 0, inflate: float = 0) -> Any:
+    """nsvcd_question but for its movers. It is shared, and to be copied."""
+    words: dict[str, Any] = {}
+    for name, kind, given in (("ask", Ask, ask), ("method", Method, method), ("model", Model, model),
+                              ("precision", Precision, precision)):
+        if given not in set(kind):
+            raise ValueError(f"{name}: {given!r} is none of {', '.join(kind)}")
+        words[name] = kind(given)
+    question = _filled(_Question, ask=words["ask"], to=to, to_time=to_time, clearance=clearance, slop=slop,
+                       tolerance=tolerance, manifold=bool(manifold), surfaces=bool(surfaces), method=words["method"],
+                       work=work, segments=segments)
+    question.network = _filled(_NetworkOptions, pairs=pairs, model=words["model"], precision=words["precision"],
+                               recall=recall, inflate=inflate)
+    return question
 
 
-_DEFAULTS = Options()
+_kept = functools.lru_cache(maxsize=256, typed=True)(_question_of)
+
+
+def _asked(*given: Any) -> Any:
+    """As _question_of; most ask the same again and again."""
+    try:
+        return _kept(*given)
+    except TypeError:  # what has no hash, or is no number
+        return _question_of(*given)
 
 
 def _mover(body: Union[Body, Tree], motion: _Motion, scale: float, side: str, kind: Any) -> Any:
@@ -101,27 +80,51 @@ def _mover(body: Union[Body, Tree], motion: _Motion, scale: float, side: str, ki
 
 def _question(a: Union[Body, Tree], b: Union[Body, Tree], poses_a: Optional[ArrayLike], poses_b: Optional[ArrayLike],
               times_a: Optional[ArrayLike], times_b: Optional[ArrayLike], scale_a: float, scale_b: float,
-              options: Options, kind: Any = Body) -> Any:
+              asked: Any, kind: Any = Body) -> Any:
     motion_a = _motion(poses_a, times_a, "a")
     # The same arrays twice are the same motion, which the library refuses of one body.
     same = poses_b is poses_a and times_b is times_a
     motion_b = motion_a if same else _motion(poses_b, times_b, "b")
-    question = _Question.from_buffer_copy(options._c)
+    question = _Question.from_buffer_copy(asked)
     question.a, question.b = _mover(a, motion_a, scale_a, "a", kind), _mover(b, motion_b, scale_b, "b", kind)
     question.kept = motion_a, motion_b
     return question
 
 
 def sweep(a: Body, b: Body, poses_a: Optional[ArrayLike] = None, poses_b: Optional[ArrayLike] = None, *,
-          times_a: Optional[ArrayLike] = None, times_b: Optional[ArrayLike] = None, scale_a: float = 1, scale_b: float = 1, options: Options = _DEFAULTS) -> Answer:
-    """Do two bodies hit each other? And when first: options=Options(ask="first").
+          times_a: Optional[ArrayLike] = None, times_b: Optional[ArrayLike] = None, scale_a: float = 1, scale_b: float = 1,
+          ask: str = "hit", to: float = 0, to_time: float = 0, clearance: float = 0, slop: float = 0,
+          tolerance: float = 0, manifold: bool = False, surfaces: bool = False, method: str = "default",
+          work: int = 0, segments: int = 0, pairs: int = 0, model: str = "default", precision: str = "float",
+          recall: float = 0, inflate: float = 0) -> Answer:
+    """Do two bodies hit each other? And when first: ask="first".
 
     poses_a, poses_b  (k, 7) x y z in metres, unit quaternion x y z w; k may differ; one pose: it rests there; None: it
                       rests at the origin
     times_a, times_b  (k) when a body is at each pose, from 0 to 1, rising; None: uniform
     scale_a, scale_b  of the bodies, about their origins, 1e-6 to 1e6
+
+    What is asked, and how; of what is 0 the default is behind the semicolon:
+    ask         hit: do they hit at all? first: and when first? distance: and how near do they come?
+    to          metres. first: nothing moves farther than this from time.low to time.high; distance: how wide the
+                bracket may be; a thousandth of the smaller body's radius
+    to_time     first: the same as a share of the motion, up to 1
+    clearance   metres: to come as near as this is a hit
+    slop        metres: a contact at the start that is no deeper does not count
+    tolerance   metres: what comes closer and does not meet may be left undecided
+    manifold    first: up to four contacts, which hold the body, are told, where else one is
+    surfaces    of the surfaces alone: what lies inside the other body, off its surface, is free of it
+    method      proof where both bodies have triangles, else network, which knows neither first, nor a clearance or a
+                slop, and of a distance, where it is named, has an opinion: Answer.opinion.distance
+    work        units that a proof may take; 10000000, of a distance 100000
+    segments    a motion is cut into at most so many, a multiple of 16 up to 64; 64
+    pairs       network: of patches that it looks at, 1 to 256; 8
+    model       network: its decoder: tiny, small or base; precision: float or int8; recall: 0, 0.99, 0.999 or 0.9999
+    inflate     network: of patches, a share of their radii, so that the logit rises before contact; of a distance 1
     """
-    question = _question(a, b, poses_a, poses_b, times_a, times_b, scale_a, scale_b, options)
+    question = _question(a, b, poses_a, poses_b, times_a, times_b, scale_a, scale_b, _asked(
+        ask, to, to_time, clearance, slop, tolerance, manifold, surfaces, method, work, segments, pairs, model,
+        precision, recall, inflate))
     answer = _Answer()
     code = _library.nsvcd_sweep(byref(question), _workspace.address, _workspace.size, byref(answer))
     _check_question(code, question)
@@ -140,7 +143,7 @@ def contacts(a: Body, b: Body, pose_a: Optional[ArrayLike] = None, pose_b: Optio
     clearance       metres: how near counts
     """
     poses = [None if pose is None else np.asarray(pose)[None] for pose in (pose_a, pose_b)]
-    question = _question(a, b, poses[0], poses[1], None, None, scale_a, scale_b, Options(clearance=clearance))
+    question = _question(a, b, poses[0], poses[1], None, None, scale_a, scale_b, _question_of(clearance=clearance))
     rows, count, is_partial = (_Contact * _MOST_CONTACTS)(), c_size_t(), c_int()
     code = _library.nsvcd_contacts(byref(question), _workspace.address, _workspace.size, rows, _MOST_CONTACTS, byref(count),
                                    byref(is_partial))
@@ -160,11 +163,13 @@ class Gradient(NamedTuple):
 
 
 def sweep_gradient(a: Body, b: Body, poses_a: Optional[ArrayLike] = None, poses_b: Optional[ArrayLike] = None, *,
-                   times_a: Optional[ArrayLike] = None, times_b: Optional[ArrayLike] = None,
-                   scale_a: float = 1, scale_b: float = 1, options: Options = _DEFAULTS) -> Gradient:
-    """As sweep, by the network, with derivatives of the logit, or, where options.ask is distance, of the distance; zero where
-    no network answered."""
-    question = _question(a, b, poses_a, poses_b, times_a, times_b, scale_a, scale_b, options)
+                   times_a: Optional[ArrayLike] = None, times_b: Optional[ArrayLike] = None, scale_a: float = 1,
+                   scale_b: float = 1, ask: str = "hit", segments: int = 0, pairs: int = 0, model: str = "default",
+                   precision: str = "float", recall: float = 0, inflate: float = 0) -> Gradient:
+    """As sweep, by the network, with derivatives of the logit, or of the distance: ask="distance". They are zero where
+    the network had nothing to look at. Both bodies need latents."""
+    question = _question(a, b, poses_a, poses_b, times_a, times_b, scale_a, scale_b, _asked(
+        ask, 0, 0, 0, 0, 0, False, False, Method.NETWORK, 0, segments, pairs, model, precision, recall, inflate))
     answer = _Answer()
     by_a, by_b = (np.zeros((1 if poses is None else len(poses), 6), np.float32) for poses, _ in question.kept)
     code = _library.nsvcd_sweep_gradient(byref(question), _workspace.address, _workspace.size, byref(answer),

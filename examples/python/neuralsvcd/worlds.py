@@ -6,65 +6,23 @@ import contextlib
 import threading
 from collections.abc import Iterator, Sequence
 from ctypes import byref, c_float, c_size_t, c_void_p
-from dataclasses import dataclass
 from typing import Any, NamedTuple, Optional, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .words import Code, Verdict, _VERDICTS, Why, _WHYS
+from .words import Code, Method, Verdict, _VERDICTS, Why, _WHYS
 from ._structs import (
     _SlideAnswer, _SlideOptions, _StepAnswer, _StepOptions, _struct, _WorldAnswer, _WorldBody, _WorldContact,
     _WorldQuestion)
 from ._library import _library
 from .errors import _check, _check_of, Error
-from ._arrays import _address, _filled, Floats, _floats, _IDENTITY, _memory, _number, _Options, Pose, _pose_tuple, _vector, Vector
+from ._arrays import _address, _filled, Floats, _floats, _IDENTITY, _memory, _number, Pose, _pose_tuple, _vector, Vector
 from .bodies import Body
 from .motions import _motion, _pose_of
 from .answers import _packed, Range
-from .sweeps import _DEFAULTS, Options, _workspace
+from .sweeps import _asked, _workspace
 from .movers import Movers, Step, _world_contacts, WorldContact
-
-
-@dataclass(frozen=True)
-class SlideOptions(_Options):
-    """How a body of a World slides: nsvcd_slide_options. What is 0 is the default.
-
-    clearance    metres: what it never comes nearer to anything than; a two-hundredth of its radius
-    margin       metres: how much farther than that it comes to rest, or a part of that; the same
-    mass, inertia  kilograms, and (3) kg m^2 about its axes through its pivot. Without an inertia it does not turn by what it
-                 meets; without a mass it is a character, whose impulses are speeds
-    friction     of what it rubs against
-    restitution  of what it hits faster than half a metre a second, up to 1
-    up           (3) a character: the direction up, unit. It rides on what it stands on
-    step         metres: as high a step it climbs
-    slope        the least cosine between up and the normal of a ground that it stands on; 0.7
-    rounds       how often in a frame it goes on after a contact; 4
-    work         units of each question; 10000
-    """
-    clearance: float = 0
-    margin: float = 0
-    mass: float = 0
-    inertia: ArrayLike = (0, 0, 0)
-    friction: float = 0
-    restitution: float = 0
-    up: ArrayLike = (0, 0, 0)
-    step: float = 0
-    slope: float = 0
-    rounds: int = 0
-    work: int = 0
-    _struct = _SlideOptions
-
-    def __post_init__(self) -> None:
-        vectors = {name: _floats(getattr(self, name), (3,), name).tolist() for name in ("inertia", "up")}
-        values = {**vars(self), **{name: None for name in vectors}}
-        object.__setattr__(self, "_c", _filled(self._struct, **values))
-        for name, vector in vectors.items():
-            object.__setattr__(self, name, tuple(vector))
-            getattr(self._c, name)[:] = vector
-
-
-_USUAL_SLIDE = SlideOptions()
 
 
 class Resident(NamedTuple):
@@ -88,7 +46,7 @@ class WorldAnswer(NamedTuple):
     time       free of all bodies before low, in contact with one at high
     safe_time, safe  "first": where the mover may go: this pose, and the way there, are proven to be free of all bodies
     depth, push_out  with a slop: how the mover was pushed out, of all that it touched at once
-    contacts   "first": with all bodies that touch at the safe pose, one each, or with options.manifold all, up to 32
+    contacts   "first": with all bodies that touch at the safe pose, one each, or with manifold=True all, up to 32
     questions  about two bodies, and
     work       units that their proofs took
     """
@@ -276,14 +234,18 @@ class World:
 
     def sweep(self, mover: Union[int, Body], poses: Optional[ArrayLike] = None, *, times: Optional[ArrayLike] = None,
               scale: float = 1, pivot: ArrayLike = (0, 0, 0), groups: int = 0, passes: int = 0, ignore: int = 0,
-              options: Options = _DEFAULTS) -> WorldAnswer:
-        """Does a mover hit any body? And which first: options=Options(ask="first"). Driven bodies are asked about as they move.
+              ask: str = "hit", to: float = 0, to_time: float = 0, clearance: float = 0, slop: float = 0,
+              tolerance: float = 0, manifold: bool = False, surfaces: bool = False, work: int = 0,
+              segments: int = 0) -> WorldAnswer:
+        """Does a mover hit any body? And which first: ask="first". Driven bodies are asked about as they move.
 
         mover   a body of the world by its id, or any Body, which has a scale, a pivot, groups and passes, as of `add`
         poses   (k, 7), as of `sweep` of two bodies; None: where it is in the world, or at the origin
         ignore  the id that a Body stands for: it does not meet that body, whose groups count
+        ask, ..., segments  as of `sweep` of two bodies; ask: hit or first
         """
-        question = _world_question(mover, poses, times, scale, pivot, groups, passes, ignore, options)
+        question = _world_question(mover, poses, times, scale, pivot, groups, passes, ignore, _asked(
+            ask, to, to_time, clearance, slop, tolerance, manifold, surfaces, Method.DEFAULT, work, segments))
         answer = _WorldAnswer()
         with self._door.asks():
             _check_of(_library.nsvcd_world_sweep(self._world, byref(question), _workspace.address, _workspace.size,
@@ -294,9 +256,11 @@ class World:
 
     def list(self, mover: Union[int, Body], poses: Optional[ArrayLike] = None, *, times: Optional[ArrayLike] = None,
              scale: float = 1, pivot: ArrayLike = (0, 0, 0), groups: int = 0, passes: int = 0, ignore: int = 0,
-             options: Options = _DEFAULTS) -> tuple[int, ...]:
+             clearance: float = 0, slop: float = 0, tolerance: float = 0, surfaces: bool = False, work: int = 0,
+             segments: int = 0) -> tuple[int, ...]:
         """The ids of all bodies that a mover meets on its way, sensors too; what is undecided counts. Arguments are those of `sweep`."""
-        question = _world_question(mover, poses, times, scale, pivot, groups, passes, ignore, options)
+        question = _world_question(mover, poses, times, scale, pivot, groups, passes, ignore, _asked(
+            "hit", 0, 0, clearance, slop, tolerance, False, surfaces, Method.DEFAULT, work, segments))
         count = c_size_t()
         with self._door.asks():
             ids = (c_size_t * len(self._bodies))()
@@ -316,20 +280,39 @@ class World:
                     return rows[:count.value].copy()
                 rows = np.empty((count.value, 2), np.uint32)
 
-    def slide(self, id: int, velocity: ArrayLike, seconds: float, options: SlideOptions = _USUAL_SLIDE) -> Slide:
+    def slide(self, id: int, velocity: ArrayLike, seconds: float, *, clearance: float = 0, margin: float = 0,
+              mass: float = 0, inertia: ArrayLike = (0, 0, 0), friction: float = 0, restitution: float = 0,
+              up: ArrayLike = (0, 0, 0), step: float = 0, slope: float = 0, rounds: int = 0, work: int = 0) -> Slide:
         """Moves a body for a frame at its speed: as far as is proven free, then on without the speed that points into what it met.
         At the end, and on its way there, it is farther than the clearance from every other body.
 
         velocity  (6) metres a second of its pivot, then radians a second, in the world; or (3), and it does not turn. Gravity and
                   other forces are the caller's to add before
         seconds   of the frame
+
+        How it slides; of what is 0 the default is behind the semicolon:
+        clearance  metres: what it never comes nearer to anything than; a two-hundredth of its radius
+        margin     metres: how much farther than that it comes to rest, or a part of that; the same
+        mass, inertia  kilograms, and (3) kg m^2 about its axes through its pivot. Without an inertia it does not turn by
+                   what it meets; without a mass it is a character, whose impulses are speeds
+        friction   of what it rubs against
+        restitution  of what it hits faster than half a metre a second, up to 1
+        up         (3) a character: the direction up, unit. It rides on what it stands on
+        step       metres: as high a step it climbs
+        slope      the least cosine between up and the normal of a ground that it stands on; 0.7
+        rounds     how often in a frame it goes on after a contact; 4
+        work       units of each question; 10000
         """
+        options = _filled(_SlideOptions, clearance=clearance, margin=margin, mass=mass, friction=friction,
+                          restitution=restitution, step=step, slope=slope, rounds=rounds, work=work)
+        options.inertia[:] = _floats(inertia, (3,), "inertia").tolist()
+        options.up[:] = _floats(up, (3,), "up").tolist()
         given = _floats(velocity, (3,) if np.shape(velocity) == (3,) else (6,), "velocity")
         speed = np.zeros(6, np.float32)
         speed[:len(given)] = given
         with self._door.changes():
             answer = self._slid.get(id) or _SlideAnswer()
-            code = _library.nsvcd_world_slide(self._world, _id_of(id), byref(options._c), _number(c_float, seconds, "seconds"),
+            code = _library.nsvcd_world_slide(self._world, _id_of(id), byref(options), _number(c_float, seconds, "seconds"),
                                               _workspace.address, _workspace.size, _address(speed), byref(answer))
             _check_of(code, _OF_SLIDE)
             self._slid[id] = answer
@@ -381,11 +364,11 @@ def _id_of(id: Any) -> Any:
 
 
 def _world_question(mover: Union[int, Body], poses: Optional[ArrayLike], times: Optional[ArrayLike], scale: float, pivot: ArrayLike,
-                    groups: int, passes: int, ignore: int, options: Options) -> Any:
+                    groups: int, passes: int, ignore: int, asked_of_it: Any) -> Any:
     asked = _filled(_WorldQuestion, groups=groups, passes=passes, self=ignore)
     given = np.asarray(poses) if poses is not None else None
     motion = _motion(given[None] if given is not None and given.shape == (7,) else given, times, "mover")
-    asked.question = options._c
+    asked.question = asked_of_it
     a = asked.question.a
     if isinstance(mover, Body):
         a.body, a.scale = mover._address, _scale_of(scale)
