@@ -45,7 +45,7 @@ def motions(distance: float) -> np.ndarray:
 
 
 def main() -> None:
-    mug, rack = (nsvcd.Body(*nsvcd.load_obj(ASSETS / name)) for name in ("mug.obj", "dish_rack.obj"))
+    mug, rack = (nsvcd.Body(ASSETS / name) for name in ("mug.obj", "dish_rack.obj"))
     threads = os.cpu_count() or 1
     print(f"us a question; {COUNT} motions of {POSES} poses    sweep  sweep_batch  overhead  on {threads} threads")
     for name, distance in (("about the rack", 0.1), ("far above it", 10)):

@@ -17,12 +17,10 @@ ValueError and TypeError.
 """
 from .answers import Answer as Answer, Contact as Contact, Opinion as Opinion, Range as Range, SafePlace as SafePlace
 from .batches import sweep_batch as sweep_batch
-from .bodies import Body as Body, Facts as Facts
-from .certificates import Certificate as Certificate, Tree as Tree, certify as certify
+from .bodies import Body as Body, BodyLike as BodyLike, Facts as Facts
+from .certificates import Certificate as Certificate, Tree as Tree, TreeLike as TreeLike, certify as certify
 from .errors import Error as Error
-from .meshes import (
-    Mass as Mass, Mesh as Mesh, cut_mesh as cut_mesh, load_mesh as load_mesh, load_obj as load_obj,
-    load_stl as load_stl, parse_mesh as parse_mesh, parse_obj as parse_obj, parse_stl as parse_stl)
+from .meshes import Mass as Mass, Mesh as Mesh, MeshLike as MeshLike
 from .motions import poses_from_matrices as poses_from_matrices
 from .movers import Movers as Movers, Step as Step, WorldContact as WorldContact
 from .plans import (

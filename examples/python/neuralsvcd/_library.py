@@ -11,13 +11,13 @@ from ._structs import _BodyFacts, _Layout, _MAX_CONTACTS, _MAX_JOINTS, _MAX_VIA_
 
 _PROTOTYPES = {
     "nsvcd_result_string": (c_char_p, c_int),
-    "nsvcd_obj_parse": (c_int, c_char_p, c_size_t, c_void_p, c_void_p, c_void_p),
     "nsvcd_mesh_cut": (c_int, c_void_p, c_void_p, c_void_p, c_void_p, c_void_p),
     "nsvcd_mesh_hull": (c_int, c_void_p, c_size_t, c_void_p, c_void_p),
     "nsvcd_mesh_of_heights": (c_int, c_void_p, c_size_t, c_size_t, c_void_p, c_void_p, c_void_p),
     "nsvcd_mesh_mass": (c_int, c_void_p, c_void_p),
     "nsvcd_mesh_free": (None, c_void_p, c_void_p),
     "nsvcd_encode": (c_int, c_void_p, c_void_p, c_void_p, c_void_p, c_size_t, c_void_p),
+    "nsvcd_encode_box": (c_int, c_void_p, c_float, c_void_p, c_void_p),
     "nsvcd_body_free": (None, c_void_p, c_void_p),
     "nsvcd_body_load": (c_int, c_void_p, c_size_t, c_void_p),
     "nsvcd_body_scale": (c_int, c_void_p, c_void_p, c_void_p, c_size_t, c_void_p),
@@ -31,7 +31,6 @@ _PROTOTYPES = {
     "nsvcd_spline": (None, c_void_p, c_size_t, c_size_t, c_float, c_size_t, c_void_p),
     "nsvcd_plan_workspace_size": (c_size_t, c_void_p, c_void_p),
     "nsvcd_plan": (c_int, c_void_p, c_void_p, c_void_p, c_size_t, c_void_p, c_void_p),
-    "nsvcd_stl_parse": (c_int, c_char_p, c_size_t, c_void_p, c_void_p, c_void_p),
     "nsvcd_checker_size": (c_size_t, c_void_p),
     "nsvcd_checker_open": (c_int, c_void_p, c_void_p, c_size_t, c_void_p),
     "nsvcd_forward_kinematics": (None, c_void_p, c_void_p, c_void_p),

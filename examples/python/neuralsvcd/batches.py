@@ -2,6 +2,7 @@
 """Many questions in one call."""
 from __future__ import annotations
 
+import os
 from collections.abc import Sequence
 from typing import Any, NamedTuple, Optional, Union
 
@@ -13,7 +14,8 @@ from ._structs import _Answer, _Question
 from ._library import _library
 from .errors import _check_question
 from ._arrays import _address, Floats, _floats
-from .bodies import Body
+from .bodies import Body, _body_of, BodyLike
+from .meshes import Mesh
 from .motions import _Motion, _motion
 from .sweeps import _asked, _workspace
 
@@ -65,13 +67,20 @@ def _worded(c: NDArray[Any]) -> NDArray[Any]:
     return answers
 
 
-Bodies = Union[Body, Sequence[Body]]
+Bodies = Union[BodyLike, Sequence[BodyLike]]
+
+
+def _are_many(bodies: Any) -> bool:
+    """A sequence of bodies, and no (vertices, faces)."""
+    if not isinstance(bodies, (list, tuple)) or isinstance(bodies, Mesh):
+        return False
+    return len(bodies) != 2 or any(isinstance(body, (Body, str, os.PathLike)) or hasattr(body, "faces") for body in bodies)
 
 
 class _Side(NamedTuple):
     """Body a or body b of all questions of a batch; each one, or one for each question."""
     name: str
-    bodies: Bodies
+    bodies: Union[Body, list[Body]]
     motion: _Motion
     scales: Floats
 
@@ -84,8 +93,6 @@ class _Side(NamedTuple):
 
     def write(self, movers: NDArray[Any]) -> None:
         bodies = [self.bodies] if isinstance(self.bodies, Body) else self.bodies
-        if not all(isinstance(body, Body) for body in bodies):
-            raise TypeError(f"{self.name}: bodies are needed")
         movers["body"] = [body._address for body in bodies]
         movers["scale"] = self.scales
         for field, given, one in zip(("poses", "times"), self.motion, (2, 1)):
@@ -96,13 +103,14 @@ class _Side(NamedTuple):
             movers["count"] = self.motion.poses.shape[-2]
 
 
-def _side(name: str, bodies: Bodies, poses: Optional[ArrayLike], times: Optional[ArrayLike],
+def _side(name: str, bodies: Any, poses: Optional[ArrayLike], times: Optional[ArrayLike],
           scale: ArrayLike) -> _Side:
     given = np.asarray(scale)
     scales = _floats(given, (None,) * min(given.ndim, 1), f"scale_{name}")
     if not scales.all():
         raise ValueError(f"scale_{name}: 0")
-    kept: Bodies = bodies if isinstance(bodies, Body) else tuple(bodies)
+    kept: Union[Body, list[Body]] = ([_body_of(body, name) for body in bodies] if _are_many(bodies)
+                                     else _body_of(bodies, name))
     return _Side(name, kept, _motion(poses, times, name, batch=True), scales)
 
 
@@ -120,7 +128,7 @@ def sweep_batch(a: Bodies, b: Bodies, poses_a: Optional[ArrayLike] = None, poses
                 recall: float = 0, inflate: float = 0) -> NDArray[Any]:
     """Answers n questions in one call of the library, one after the other.
 
-    a, b              a body for all, or a sequence of n
+    a, b              a body, or what stands for a mesh, for all, or a sequence of n
     poses_a, poses_b  (n, k, 7), or (k, 7) for all, or None
     times_a, times_b  (n, k), or (k) for all, or None
     scale_a, scale_b  (n), or a number for all

@@ -5,7 +5,6 @@ from __future__ import annotations
 import ctypes
 import functools
 import operator
-import os
 from collections.abc import Callable
 from ctypes import byref, c_float, c_void_p
 from pathlib import Path
@@ -17,9 +16,9 @@ from numpy.typing import ArrayLike, NDArray
 from .words import Code
 from ._structs import _EncodeOptions, _PROGRESS
 from ._library import _library
-from .errors import _check, Error
-from ._arrays import _address, _cancels, FilePath, _filled, _floats, _memory, _vector, Vector
-from .meshes import _c_mesh, parse_mesh, _warn_of_size
+from .errors import _check, _check_of, Error
+from ._arrays import _address, _cancels, FilePath, _filled, _floats, _memory, _number, _numeric, _vector, Vector
+from .meshes import _c_mesh, Mesh, MeshLike, _surface_of
 
 
 def _check_radius(radius: float) -> None:
@@ -70,15 +69,18 @@ class Facts(NamedTuple):
 
 
 class Body:
-    """An encoded mesh. It does not change; threads may share it; it can be pickled and copied.
+    """An encoded mesh, or a shape: Body.box, sphere, capsule, cloud, hull. It does not change; threads may share it; it
+    can be pickled and copied.
 
-    vertices      (n, 3) metres; or a path, without triangles, of an OBJ, STL, PLY or GLB file: see load_mesh
-    triangles     (m, 3) integers
-    scale, origin of a file: see load_mesh
+    mesh          the path of an OBJ, STL, PLY or GLB file; (vertices, faces), (n, 3) metres and (m, 3) integers; what has
+                  these, like a Mesh or a trimesh.Trimesh
+    faces         (m, 3), where vertices are given before: Body(vertices, faces)
+    scale         to metres: 0.001 of millimetres
+    origin        (3) before scaling: the place that becomes the mesh's origin, taken off in double; of a map
     patches       1 to 65536; 0: by the number of triangles
     patch_radius  metres; with patches = 0: as many as have about this radius; 0: unasked
-    convex_radius         the body is all that is within so many metres of the mesh. If > 0, triangles may be points (one
-                  vertex thrice) and segments, and there are no latents
+    convex_radius  the body is all that is within so many metres of the mesh. If > 0, triangles may be points (one vertex
+                  thrice) and segments, and there are no latents
     open          the mesh is not closed: nothing counts as inside it
     latents       for the network, the planner and gradients too
     no_triangles  for them alone
@@ -86,37 +88,71 @@ class Body:
     coarse        in fewer bytes: answers are then about triangles within facts.quantization_error of the mesh's
     progress      called now and then with what is done, in [0, 1]. If it returns something true, Error(CANCELLED);
                   what it raises ends the encoding
+
+    Encoding takes about a second for 100,000 triangles; what is asked about again is to be kept.
     """
 
     __slots__ = ("_memory", "_address", "__weakref__")
     _memory: NDArray[np.uint8]
     _address: int
 
-    def __init__(self, vertices: Union[ArrayLike, os.PathLike[str]], triangles: Optional[ArrayLike] = None, *,
-                 scale: float = 1, origin: Optional[ArrayLike] = None, patches: int = 0, patch_radius: float = 0, convex_radius: float = 0, open: bool = False,
-                 latents: bool = False, no_triangles: bool = False, coarse: bool = False, balls: int = 0,
-                 progress: Optional[Callable[[float], Any]] = None) -> None:
-        if isinstance(vertices, (str, os.PathLike)):
-            if triangles is not None:
-                raise TypeError("triangles: a file has its own")
-            path = os.fspath(vertices)
-            read = parse_mesh(Path(path).read_bytes(), path, scale, (0, 0, 0) if origin is None else origin)
-            _warn_of_size(read, scale, path)
-            mesh = _c_mesh(*read)
-        elif triangles is None or scale != 1 or origin is not None:
-            raise TypeError("triangles are missing" if triangles is None else "scale, origin: only of a file")
-        else:
-            mesh = _c_mesh(vertices, triangles)
+    def __init__(self, mesh: Union[MeshLike, ArrayLike], faces: Optional[ArrayLike] = None, *, scale: float = 1,
+                 origin: ArrayLike = (0, 0, 0), patches: int = 0, patch_radius: float = 0, convex_radius: float = 0,
+                 open: bool = False, latents: bool = False, no_triangles: bool = False, coarse: bool = False,
+                 balls: int = 0, progress: Optional[Callable[[float], Any]] = None) -> None:
+        c_mesh = _c_mesh(*_surface_of(mesh, faces, scale, origin))
         options = _filled(_EncodeOptions, patches=patches, patch_radius=patch_radius, convex_radius=convex_radius, open=open,
                           latents=latents, no_triangles=no_triangles, coarse=coarse, balls=balls)
         caught: list[BaseException] = []
         if progress:
             options.progress = _PROGRESS(functools.partial(_cancels, progress, caught))
         body = c_void_p()
-        code = _library.nsvcd_encode(byref(mesh), byref(options), None, None, 0, byref(body))
+        code = _library.nsvcd_encode(byref(c_mesh), byref(options), None, None, 0, byref(body))
         if caught:
             raise caught[0]
         _check(code)
+        self._take(body)
+
+    @classmethod
+    def box(cls, extents: ArrayLike, convex_radius: float = 0) -> Body:
+        """A box about the origin. extents: (3) its lengths, metres; convex_radius: of its edges, which are rounded within
+        that. One with latents or balls is Body(Mesh.box(extents), ...). Error: RADIUS, NUMBER."""
+        half, body = _floats(np.divide(_numeric(extents, (3,), "extents"), 2), (3,), "extents"), c_void_p()
+        if not (half > 0).all():
+            raise ValueError(f"extents: {extents!r}: they must be greater than 0")
+        _check_of(_library.nsvcd_encode_box(_address(half), _number(c_float, convex_radius, "convex_radius"), None,
+                                            byref(body)), {Code.RADIUS: "convex_radius"})
+        self = cls.__new__(cls)
+        self._take(body)
+        return self
+
+    @classmethod
+    def sphere(cls, radius: float) -> Body:
+        """A ball about the origin; metres. Error: RADIUS."""
+        _check_radius(radius)
+        return cls([[0, 0, 0]], [[0, 0, 0]], convex_radius=radius)
+
+    @classmethod
+    def capsule(cls, start: ArrayLike, end: ArrayLike, radius: float) -> Body:
+        """All that is within a radius of a segment, metres. start, end: (3). Error: RADIUS, NUMBER."""
+        _check_radius(radius)
+        ends = [_numeric(end, (3,), name) for end, name in ((start, "start"), (end, "end"))]
+        return cls(np.array(ends), [[0, 1, 1]], convex_radius=radius)
+
+    @classmethod
+    def cloud(cls, points: ArrayLike, radius: float) -> Body:
+        """All that is within a radius of (n, 3) points, metres. Error: RADIUS, NUMBER, EMPTY."""
+        _check_radius(radius)
+        count = len(_numeric(points, (None, 3), "points"))
+        return cls(points, np.repeat(np.arange(count), 3).reshape(-1, 3), convex_radius=radius)
+
+    @classmethod
+    def hull(cls, points: ArrayLike) -> Body:
+        """The convex hull of (n, 3) points, metres; as Mesh.hull."""
+        return cls(Mesh.hull(points))
+
+    def _take(self, body: Any) -> None:
+        """A copy of a body of the library's, which is given back."""
         try:
             size = _library.nsvcd_body_describe(body).size
             memory = _memory(size)
@@ -124,22 +160,6 @@ class Body:
         finally:
             _library.nsvcd_body_free(body, None)
         self._keep(memory)
-
-    @classmethod
-    def sphere(cls, radius: float) -> Body:
-        _check_radius(radius)
-        return cls([[0, 0, 0]], [[0, 0, 0]], convex_radius=radius)
-
-    @classmethod
-    def capsule(cls, start: ArrayLike, end: ArrayLike, radius: float) -> Body:
-        _check_radius(radius)
-        return cls(np.array([start, end]), [[0, 1, 1]], convex_radius=radius)
-
-    @classmethod
-    def cloud(cls, points: ArrayLike, radius: float) -> Body:
-        """All that is within a radius of (n, 3) points, metres."""
-        _check_radius(radius)
-        return cls(points, np.repeat(np.arange(len(np.asarray(points))), 3).reshape(-1, 3), convex_radius=radius)
 
     def _keep(self, memory: NDArray[np.uint8]) -> None:
         self._address = _address(memory)
@@ -204,3 +224,16 @@ class Body:
         centre, radius = (c_float * 3)(), c_float()
         _library.nsvcd_body_patch(self._address, index, byref(centre), byref(radius))
         return _vector(centre), radius.value
+
+
+BodyLike = Union[Body, MeshLike]
+
+
+def _body_of(given: Any, name: str) -> Body:
+    """A body, or one of what stands for a mesh; encoded here."""
+    if isinstance(given, Body):
+        return given
+    try:
+        return Body(given)
+    except TypeError as error:
+        raise TypeError(f"{name}: a Body or a mesh is needed: {error}") from None

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ctypes
 from ctypes import byref, c_void_p
-from typing import Any, NamedTuple, Optional
+from typing import Any, NamedTuple, Optional, Union
 
 from numpy.typing import ArrayLike
 
@@ -13,7 +13,8 @@ from ._structs import _Answer, _Certificate, _CertifyOptions
 from ._library import _library
 from .errors import _check
 from ._arrays import _address, _filled, _memory
-from .meshes import _c_mesh
+from .bodies import Body
+from .meshes import _c_mesh, MeshLike, _surface_of
 from .answers import Answer
 from .sweeps import _question, _question_of
 
@@ -21,14 +22,13 @@ from .sweeps import _question, _question_of
 class Tree:
     """A mesh as certify takes it: nsvcd_tree. It does not change; threads may share it; it can be pickled and copied.
 
-    vertices   (n, 3) metres
-    triangles  (m, 3) integers
+    mesh, faces  as Body has them: a path, (vertices, faces), or what has these
     """
 
     __slots__ = ("_mesh", "_memory", "_address")
 
-    def __init__(self, vertices: ArrayLike, triangles: ArrayLike) -> None:
-        self._mesh = _c_mesh(vertices, triangles)
+    def __init__(self, mesh: Union[MeshLike, ArrayLike], faces: Optional[ArrayLike] = None) -> None:
+        self._mesh = _c_mesh(*_surface_of(mesh, faces))
         size = _library.nsvcd_tree_size(byref(self._mesh))
         self._memory = _memory(size)
         tree = c_void_p()
@@ -37,6 +37,19 @@ class Tree:
 
     def __reduce__(self) -> tuple[Any, ...]:
         return Tree, self._mesh.kept
+
+
+TreeLike = Union[Tree, MeshLike]
+
+
+def _tree_of(given: Any, name: str) -> Tree:
+    if isinstance(given, Tree):
+        return given
+    try:
+        return Tree(given)
+    except TypeError as error:
+        hint = ": a Body no longer is one" if isinstance(given, Body) else f": {error}"
+        raise TypeError(f"{name}: a Tree or a mesh is needed{hint}") from None
 
 
 class Certificate(NamedTuple):
@@ -57,17 +70,18 @@ class Certificate(NamedTuple):
     visits: int
 
 
-def certify(a: Tree, b: Tree, poses_a: Optional[ArrayLike] = None, poses_b: Optional[ArrayLike] = None, *,
+def certify(a: TreeLike, b: TreeLike, poses_a: Optional[ArrayLike] = None, poses_b: Optional[ArrayLike] = None, *,
             times_a: Optional[ArrayLike] = None, times_b: Optional[ArrayLike] = None, scale_a: float = 1,
             scale_b: float = 1, clearance: float = 0, answer: Optional[Answer] = None, visits: int = 0) -> Certificate:
     """Do two meshes hit each other? Poses, times and scales as sweep has them; what is answered is proven to others.
 
+    a, b       each a Tree, or what stands for a mesh: a path, (vertices, faces), or what has these
     clearance  metres: to come as near as this is a hit
     answer     of sweep, where a hit is looked for first; it is not believed
     visits     steps that may be taken; 1000000
     """
-    question = _question(a, b, poses_a, poses_b, times_a, times_b, scale_a, scale_b, _question_of(clearance=clearance),
-                         Tree)
+    trees = _tree_of(a, "a"), _tree_of(b, "b")
+    question = _question((None, None), poses_a, poses_b, times_a, times_b, scale_a, scale_b, _question_of(clearance=clearance))
     options = _filled(_CertifyOptions, visits=visits)
     if answer is not None:
         named = answer.nearest
@@ -75,14 +89,14 @@ def certify(a: Tree, b: Tree, poses_a: Optional[ArrayLike] = None, poses_b: Opti
         told = _Answer(verdict=_number_of(answer.verdict), inside=answer.inside)
         told.nearest.time, (told.nearest.triangle_a, told.nearest.triangle_b) = named.time, triangles
         options.answer = ctypes.addressof(told)
-    size = _library.nsvcd_certify_workspace_size(byref(question), a._address, b._address)
+    size = _library.nsvcd_certify_workspace_size(byref(question), trees[0]._address, trees[1]._address)
     workspace = _memory(size)
     made = _Certificate(size=1 << 20)  # more than most take
     room = 0
     while room < made.size:
         room = made.size
         data = _memory(room)
-        _check(_library.nsvcd_certify(byref(question), a._address, b._address, byref(options), _address(workspace),
+        _check(_library.nsvcd_certify(byref(question), trees[0]._address, trees[1]._address, byref(options), _address(workspace),
                                       size, _address(data), room, byref(made)))
     return Certificate(_VERDICTS[made.verdict], _WHYS[made.why], bool(made.inside), made.time,
                        data[:made.size].tobytes(), made.visits)

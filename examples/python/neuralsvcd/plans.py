@@ -18,7 +18,7 @@ from ._structs import (
 from ._library import _library
 from .errors import _check
 from ._arrays import _address, _cancels, Floats, _floats, _indices, _memory, _filled, _numeric
-from .bodies import Body
+from .bodies import _body_of, BodyLike
 from .motions import _posed
 from .sweeps import _question_of
 
@@ -104,7 +104,7 @@ def _view(address: int, *shape: int) -> Floats:
     return np.frombuffer(floats, np.float32).reshape(shape)
 
 
-def plan(bodies: Sequence[Optional[Body]], pairs: ArrayLike, kinematics: Callable[[Floats], ArrayLike], start: ArrayLike,
+def plan(bodies: Sequence[Optional[BodyLike]], pairs: ArrayLike, kinematics: Callable[[Floats], ArrayLike], start: ArrayLike,
          goal: ArrayLike, low: ArrayLike, high: ArrayLike, *,
          jacobian: Optional[Callable[[Floats], ArrayLike]] = None,
          progress: Optional[Callable[[Progress], Any]] = None, seed: int = 0, seeds: int = 0, explore: Stage = Stage(),
@@ -137,9 +137,7 @@ def plan(bodies: Sequence[Optional[Body]], pairs: ArrayLike, kinematics: Callabl
     first = _floats(start, (None,), "start")
     joints = len(first)
     rows = [first, *(_floats(row, (joints,), name) for row, name in ((goal, "goal"), (low, "low"), (high, "high")))]
-    kept = tuple(bodies)
-    if not all(body is None or isinstance(body, Body) for body in kept):
-        raise TypeError("bodies: each a Body, or None")
+    kept = [None if body is None else _body_of(body, "bodies") for body in bodies]
     addresses = (c_void_p * len(kept))(*(c_void_p(body._address if body else None) for body in kept))
     met = _indices(pairs, 2, "pairs")
     caught: list[BaseException] = []

@@ -21,7 +21,7 @@ from .errors import _check
 from ._arrays import (
     _address, _cancels, _doubles, Doubles, _filled, Floats, _floats, _IDENTITY, _indices, _memory, _number, _vector,
     Vector)
-from .bodies import Body
+from .bodies import _body_of, BodyLike
 from .motions import _pose_of
 from .answers import Range
 
@@ -49,8 +49,8 @@ class Joint(NamedTuple):
 
 
 class Part(NamedTuple):
-    """A body on a link: nsvcd_part."""
-    body: Body
+    """A body on a link: nsvcd_part. The body may be what stands for a mesh; a Robot encodes it."""
+    body: BodyLike
     link: int = 0
     pose: ArrayLike = _IDENTITY
     scale: float = 0
@@ -214,10 +214,10 @@ class Robot:
                    (c_float * 3)(*_floats(j.axis, (3,), "axis").tolist()), j.low, j.high, j.speed, j.acceleration,
                    0 if j.mimic is None else _number(c_uint32, j.mimic + 1, "mimic"), j.multiplier, j.offset)
             for j in joints))
-        self._bodies = [part.body for part in parts]
+        self._bodies = [_body_of(part.body, "body") for part in parts]
         self._parts = (_Part * max(len(parts), 1))(*(
-            _Part(part.body._address, _number(c_uint32, part.link, "link"), _pose_of(part.pose, "pose"), part.scale)
-            for part in parts))
+            _Part(body._address, _number(c_uint32, part.link, "link"), _pose_of(part.pose, "pose"), part.scale)
+            for body, part in zip(self._bodies, parts)))
         if clearances is not None and pairs is not None:
             self._clearances = _floats(clearances, (len(_indices(pairs, 2, "pairs")),), "clearances")
         self._near = [_doubles(joints, (self.joint_count,), "allowances") for _, joints, _ in allowances]

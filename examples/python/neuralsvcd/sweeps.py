@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import functools
 import threading
+from collections.abc import Sequence
 from ctypes import byref, c_float, c_int, c_size_t
-from typing import TYPE_CHECKING, Any, NamedTuple, Optional, Union
+from typing import Any, NamedTuple, Optional
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -15,12 +16,9 @@ from ._structs import _Answer, _Contact, _MAX_CONTACTS, _NetworkOptions, _Questi
 from ._library import _library
 from .errors import _check_question
 from ._arrays import _address, _filled, Floats, _memory
-from .bodies import Body
+from .bodies import Body, _body_of, BodyLike
 from .motions import _Motion, _motion
 from .answers import Answer, _answer_of, Contact, _CONTACT, _contact_of
-
-if TYPE_CHECKING:
-    from .certificates import Tree
 
 
 class _Workspace(threading.local):
@@ -65,33 +63,38 @@ def _asked(*given: Any) -> Any:
         return _question_of(*given)
 
 
-def _mover(body: Union[Body, Tree], motion: _Motion, scale: float, side: str, kind: Any) -> Any:
-    if not isinstance(body, kind):
-        raise TypeError(f"{side}: a {kind.__name__} is needed, not {type(body).__name__}")
+def _mover(address: Any, motion: _Motion, scale: float, side: str) -> Any:
     factor = c_float(scale)
     if not factor.value:
         raise ValueError(f"scale_{side}: {scale}")  # in C that is 1
-    address = body._address if isinstance(body, Body) else None
     if motion.poses is None:
         return address, None, 0, None, factor
     times = None if motion.times is None else _address(motion.times)
     return address, _address(motion.poses), len(motion.poses), times, factor
 
 
-def _question(a: Union[Body, Tree], b: Union[Body, Tree], poses_a: Optional[ArrayLike], poses_b: Optional[ArrayLike],
+def _question(bodies: Sequence[Any], poses_a: Optional[ArrayLike], poses_b: Optional[ArrayLike],
               times_a: Optional[ArrayLike], times_b: Optional[ArrayLike], scale_a: float, scale_b: float,
-              asked: Any, kind: Any = Body) -> Any:
+              asked: Any) -> Any:
+    """bodies: two, or None each, where they are none of the library's."""
     motion_a = _motion(poses_a, times_a, "a")
     # The same arrays twice are the same motion, which the library refuses of one body.
     same = poses_b is poses_a and times_b is times_a
     motion_b = motion_a if same else _motion(poses_b, times_b, "b")
     question = _Question.from_buffer_copy(asked)
-    question.a, question.b = _mover(a, motion_a, scale_a, "a", kind), _mover(b, motion_b, scale_b, "b", kind)
-    question.kept = motion_a, motion_b
+    addresses = [body._address if body else None for body in bodies]
+    question.a = _mover(addresses[0], motion_a, scale_a, "a")
+    question.b = _mover(addresses[1], motion_b, scale_b, "b")
+    question.kept = motion_a, motion_b, bodies
     return question
 
 
-def sweep(a: Body, b: Body, poses_a: Optional[ArrayLike] = None, poses_b: Optional[ArrayLike] = None, *,
+def _two_bodies(a: Any, b: Any) -> tuple[Body, Body]:
+    first = _body_of(a, "a")
+    return first, first if b is a else _body_of(b, "b")
+
+
+def sweep(a: BodyLike, b: BodyLike, poses_a: Optional[ArrayLike] = None, poses_b: Optional[ArrayLike] = None, *,
           times_a: Optional[ArrayLike] = None, times_b: Optional[ArrayLike] = None, scale_a: float = 1, scale_b: float = 1,
           ask: str = "hit", to: float = 0, to_time: float = 0, clearance: float = 0, slop: float = 0,
           tolerance: float = 0, manifold: bool = False, surfaces: bool = False, method: str = "default",
@@ -99,6 +102,7 @@ def sweep(a: Body, b: Body, poses_a: Optional[ArrayLike] = None, poses_b: Option
           recall: float = 0, inflate: float = 0) -> Answer:
     """Do two bodies hit each other? And when first: ask="first".
 
+    a, b              each a Body, or what stands for a mesh, which is encoded for this call alone: see Body
     poses_a, poses_b  (k, 7) x y z in metres, unit quaternion x y z w; k may differ; one pose: it rests there; None: it
                       rests at the origin
     times_a, times_b  (k) when a body is at each pose, from 0 to 1, rising; None: uniform
@@ -122,7 +126,7 @@ def sweep(a: Body, b: Body, poses_a: Optional[ArrayLike] = None, poses_b: Option
     model       network: its decoder: tiny, small or base; precision: float or int8; recall: 0, 0.99, 0.999 or 0.9999
     inflate     network: of patches, a share of their radii, so that the logit rises before contact; of a distance 1
     """
-    question = _question(a, b, poses_a, poses_b, times_a, times_b, scale_a, scale_b, _asked(
+    question = _question(_two_bodies(a, b), poses_a, poses_b, times_a, times_b, scale_a, scale_b, _asked(
         ask, to, to_time, clearance, slop, tolerance, manifold, surfaces, method, work, segments, pairs, model,
         precision, recall, inflate))
     answer = _Answer()
@@ -134,7 +138,7 @@ def sweep(a: Body, b: Body, poses_a: Optional[ArrayLike] = None, poses_b: Option
 _MOST_CONTACTS = 6 * _MAX_CONTACTS  # NSVCD_MAX_SIDES
 
 
-def contacts(a: Body, b: Body, pose_a: Optional[ArrayLike] = None, pose_b: Optional[ArrayLike] = None, *, clearance: float,
+def contacts(a: BodyLike, b: BodyLike, pose_a: Optional[ArrayLike] = None, pose_b: Optional[ArrayLike] = None, *, clearance: float,
              scale_a: float = 1, scale_b: float = 1) -> tuple[list[Contact], bool]:
     """Where are two bodies at rest near each other, on all sides? Up to four contacts on each of six, those of the nearest side
     first; and whether some may be missing.
@@ -143,7 +147,7 @@ def contacts(a: Body, b: Body, pose_a: Optional[ArrayLike] = None, pose_b: Optio
     clearance       metres: how near counts
     """
     poses = [None if pose is None else np.asarray(pose)[None] for pose in (pose_a, pose_b)]
-    question = _question(a, b, poses[0], poses[1], None, None, scale_a, scale_b, _question_of(clearance=clearance))
+    question = _question(_two_bodies(a, b), poses[0], poses[1], None, None, scale_a, scale_b, _question_of(clearance=clearance))
     rows, count, is_partial = (_Contact * _MOST_CONTACTS)(), c_size_t(), c_int()
     code = _library.nsvcd_contacts(byref(question), _workspace.address, _workspace.size, rows, _MOST_CONTACTS, byref(count),
                                    byref(is_partial))
@@ -162,16 +166,16 @@ class Gradient(NamedTuple):
     by_b: Floats
 
 
-def sweep_gradient(a: Body, b: Body, poses_a: Optional[ArrayLike] = None, poses_b: Optional[ArrayLike] = None, *,
+def sweep_gradient(a: BodyLike, b: BodyLike, poses_a: Optional[ArrayLike] = None, poses_b: Optional[ArrayLike] = None, *,
                    times_a: Optional[ArrayLike] = None, times_b: Optional[ArrayLike] = None, scale_a: float = 1,
                    scale_b: float = 1, ask: str = "hit", segments: int = 0, pairs: int = 0, model: str = "default",
                    precision: str = "float", recall: float = 0, inflate: float = 0) -> Gradient:
     """As sweep, by the network, with derivatives of the logit, or of the distance: ask="distance". They are zero where
     the network had nothing to look at. Both bodies need latents."""
-    question = _question(a, b, poses_a, poses_b, times_a, times_b, scale_a, scale_b, _asked(
+    question = _question(_two_bodies(a, b), poses_a, poses_b, times_a, times_b, scale_a, scale_b, _asked(
         ask, 0, 0, 0, 0, 0, False, False, Method.NETWORK, 0, segments, pairs, model, precision, recall, inflate))
     answer = _Answer()
-    by_a, by_b = (np.zeros((1 if poses is None else len(poses), 6), np.float32) for poses, _ in question.kept)
+    by_a, by_b = (np.zeros((1 if poses is None else len(poses), 6), np.float32) for poses, _ in question.kept[:2])
     code = _library.nsvcd_sweep_gradient(byref(question), _workspace.address, _workspace.size, byref(answer),
                                          _address(by_a), _address(by_b))
     _check_question(code, question)

@@ -18,7 +18,7 @@ from ._structs import (
 from ._library import _library
 from .errors import _check, _check_of, Error
 from ._arrays import _address, _filled, Floats, _floats, _IDENTITY, _memory, _number, Pose, _pose_tuple, _vector, Vector
-from .bodies import Body
+from .bodies import Body, _body_of, BodyLike
 from .motions import _motion, _pose_of
 from .answers import _packed, Range
 from .sweeps import _asked, _workspace
@@ -167,10 +167,11 @@ class World:
         with self._door.asks():
             return tuple(sorted(self._bodies))
 
-    def add(self, body: Body, pose: ArrayLike = _IDENTITY, *, scale: float = 1, pivot: ArrayLike = (0, 0, 0), groups: int = 0,
+    def add(self, body: BodyLike, pose: ArrayLike = _IDENTITY, *, scale: float = 1, pivot: ArrayLike = (0, 0, 0), groups: int = 0,
             passes: int = 0, fixed: bool = False, sensor: bool = False) -> int:
         """Adds a body and returns its id; ids of removed bodies are used again. Nothing is asked: it may overlap others.
 
+        body    a Body, or what stands for a mesh
         pose    (7) or (4, 4): where it is
         scale   about its origin
         pivot   (3) of its frame: what it turns about. Of what moves freely, the centre of mass
@@ -178,8 +179,7 @@ class World:
         fixed   it never moves by itself, like a level: pairs of two such bodies are not listed
         sensor  it stops nothing; `list` tells what is in it
         """
-        if not isinstance(body, Body):
-            raise TypeError(f"body: a Body is needed, not {type(body).__name__}")
+        body = _body_of(body, "body")
         given = _filled(_WorldBody, groups=groups, passes=passes, fixed=bool(fixed), sensor=bool(sensor))
         given.body, given.pose, given.scale = body._address, _pose_of(pose, "pose"), _scale_of(scale)
         given.pivot[:] = _floats(pivot, (3,), "pivot").tolist()
@@ -232,7 +232,7 @@ class World:
         with self._door.changes():
             _check(_library.nsvcd_world_arrive(self._world))
 
-    def sweep(self, mover: Union[int, Body], poses: Optional[ArrayLike] = None, *, times: Optional[ArrayLike] = None,
+    def sweep(self, mover: Union[int, BodyLike], poses: Optional[ArrayLike] = None, *, times: Optional[ArrayLike] = None,
               scale: float = 1, pivot: ArrayLike = (0, 0, 0), groups: int = 0, passes: int = 0, ignore: int = 0,
               ask: str = "hit", to: float = 0, to_time: float = 0, clearance: float = 0, slop: float = 0,
               tolerance: float = 0, manifold: bool = False, surfaces: bool = False, work: int = 0,
@@ -254,7 +254,7 @@ class World:
         return WorldAnswer(_VERDICTS[v[0]], _WHYS[v[1]], v[2] or None, Range(v[3], v[4]), v[5], v[6:13], v[13], v[14:17],
                            _world_contacts(answer, v[17]), v[18], v[19])
 
-    def list(self, mover: Union[int, Body], poses: Optional[ArrayLike] = None, *, times: Optional[ArrayLike] = None,
+    def list(self, mover: Union[int, BodyLike], poses: Optional[ArrayLike] = None, *, times: Optional[ArrayLike] = None,
              scale: float = 1, pivot: ArrayLike = (0, 0, 0), groups: int = 0, passes: int = 0, ignore: int = 0,
              clearance: float = 0, slop: float = 0, tolerance: float = 0, surfaces: bool = False, work: int = 0,
              segments: int = 0) -> tuple[int, ...]:
@@ -363,26 +363,26 @@ def _id_of(id: Any) -> Any:
     return _number(c_size_t, id, "id")
 
 
-def _world_question(mover: Union[int, Body], poses: Optional[ArrayLike], times: Optional[ArrayLike], scale: float, pivot: ArrayLike,
+def _world_question(mover: Union[int, BodyLike], poses: Optional[ArrayLike], times: Optional[ArrayLike], scale: float, pivot: ArrayLike,
                     groups: int, passes: int, ignore: int, asked_of_it: Any) -> Any:
     asked = _filled(_WorldQuestion, groups=groups, passes=passes, self=ignore)
     given = np.asarray(poses) if poses is not None else None
     motion = _motion(given[None] if given is not None and given.shape == (7,) else given, times, "mover")
     asked.question = asked_of_it
     a = asked.question.a
-    if isinstance(mover, Body):
-        a.body, a.scale = mover._address, _scale_of(scale)
-        a.pivot[:] = _floats(pivot, (3,), "pivot").tolist()
-    elif isinstance(mover, bool) or not isinstance(mover, (int, np.integer)):
-        raise TypeError(f"mover: an id or a Body is needed, not {type(mover).__name__}")
-    elif scale != 1 or np.any(pivot) or groups or passes or ignore:
-        raise TypeError("scale, pivot, groups, passes, ignore: only of a Body; that of an id has its own")
-    elif not mover:
-        raise Error(Code.INDEX, "mover")  # 0 is nobody
-    else:
+    body: Optional[Body] = None
+    if isinstance(mover, (int, np.integer)) and not isinstance(mover, bool):
+        if scale != 1 or np.any(pivot) or groups or passes or ignore:
+            raise TypeError("scale, pivot, groups, passes, ignore: only of a Body; that of an id has its own")
+        if not mover:
+            raise Error(Code.INDEX, "mover")  # 0 is nobody
         asked.self = _id_of(mover)
+    else:
+        body = _body_of(mover, "mover: an id")
+        a.body, a.scale = body._address, _scale_of(scale)
+        a.pivot[:] = _floats(pivot, (3,), "pivot").tolist()
     if motion.poses is not None:
         a.poses, a.count = _address(motion.poses), len(motion.poses)
         a.times = None if motion.times is None else _address(motion.times)
-    asked.kept = motion
+    asked.kept = motion, body
     return asked
