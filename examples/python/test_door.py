@@ -1,7 +1,9 @@
 """Tests of what someone meets first who comes from numpy: help, types, whatever can stand for a mesh or a pose."""
 from __future__ import annotations
 
+import copy
 import os
+import pickle
 import pydoc
 import shutil
 import subprocess
@@ -72,7 +74,7 @@ class MeshLikes(unittest.TestCase):
         for kind in self.kinds:
             self.assertEqual([nsvcd.sweep(kind, rack, path).verdict for path in (low, high)], ["hit", "free"])
             self.assertEqual(nsvcd.sweep(kind, kind, [[0.01, 0, 0, 0, 0, 0, 1]], None, scale_a=2).verdict, "hit")
-            self.assertEqual(nsvcd.sweep_batch([kind, rack], [rack, kind], [low, high])["verdict"].tolist(), ["hit", "free"])
+            self.assertEqual(nsvcd.sweep([kind, rack], [rack, kind], [low, high])["verdict"].tolist(), ["hit", "free"])
             proof = nsvcd.certify(kind, ASSETS / "dish_rack.obj", high)
             self.assertEqual(proof.verdict, "free")
             if not isinstance(kind, (str, Path)):  # the checker reads no files
@@ -131,6 +133,114 @@ class Shapes(unittest.TestCase):
             self.assertRaises(ValueError, Body.box, extents)
             self.assertRaises(ValueError, Mesh.box, extents)
         self.assertRaises(ValueError, Body.capsule, [0, 0], [0, 1], 1)
+
+
+class Poses(unittest.TestCase):
+    """Whatever stands for a pose, a motion or many."""
+
+    def setUp(self) -> None:
+        self.ball = Body.sphere(0.5)
+        self.random = np.random.default_rng(8)
+
+    def test_shapes(self) -> None:
+        """Positions, poses and matrices that are the same; one, a motion, and many."""
+        places = self.random.normal(size=(6, 4, 3))
+        poses = np.concatenate([places, np.zeros((6, 4, 3)), np.ones((6, 4, 1))], -1)
+        matrices = np.tile(np.eye(4), (6, 4, 1, 1))
+        matrices[..., :3, 3] = places
+        expected = [nsvcd.sweep(self.ball, self.ball, pose, [[0, 0, 1, 0, 0, 0, 1]]) for pose in poses]
+        self.assertEqual({answer.verdict for answer in expected}, {"hit", "free"})
+        for given in (places, poses, matrices, places.tolist(), np.float32(places)):
+            many = nsvcd.sweep(self.ball, self.ball, given, [0, 0, 1])
+            self.assertEqual(many.verdict.tolist(), [answer.verdict for answer in expected])
+            for k in range(6):
+                self.assertEqual(nsvcd.sweep(self.ball, self.ball, given[k], [0, 0, 1]).verdict, expected[k].verdict)
+                one = nsvcd.sweep(self.ball, self.ball, given[k][0], [0, 0, 1])
+                self.assertEqual(one, nsvcd.sweep(self.ball, self.ball, poses[k, :1], [0, 0, 1]))
+        self.assertEqual(nsvcd.certify((places[0], [[0, 1, 2]]), (places[1], [[0, 1, 2]]), [9, 9, 9]).verdict, "free")
+        world = nsvcd.World(2)
+        id = world.add(self.ball, [1, 2, 3])
+        np.testing.assert_array_equal(world.poses([id]), [[1, 2, 3, 0, 0, 0, 1]])
+        self.assertEqual(world.sweep(self.ball, [[3, 2, 3], [2.1, 2, 3]]).verdict, "free")
+        self.assertEqual(nsvcd.contacts(self.ball, self.ball, [1.001, 0, 0], clearance=0.01)[1], False)
+        plan = nsvcd.plan([Body(Mesh.box((1, 1, 1)), latents=True)] * 2, [[0, 1]], lambda joints: [[*joints, 0], [0, 0, 0]],
+                          [-3, 0], [3, 0], [-4, -4], [4, 4])
+        self.assertEqual(plan.status, nsvcd.PlanStatus.CONVERGED)
+
+    def test_converted(self) -> None:
+        quaternions = self.random.normal(size=(9, 4))
+        quaternions /= np.linalg.norm(quaternions, axis=1, keepdims=True)
+        xyzw = np.concatenate([self.random.normal(size=(9, 3)), quaternions], 1)
+        wxyz = xyzw[:, [0, 1, 2, 6, 3, 4, 5]]
+        np.testing.assert_array_equal(nsvcd.poses(wxyz, order="wxyz"), xyzw)
+        np.testing.assert_array_equal(nsvcd.poses(wxyz[2], order="wxyz"), xyzw[2])
+        np.testing.assert_array_equal(nsvcd.poses(xyzw, to="wxyz"), wxyz)
+        np.testing.assert_array_equal(nsvcd.poses(wxyz, "wxyz", to="wxyz"), wxyz)
+        for order in ("xyzw", "wxyz"):
+            np.testing.assert_array_equal(nsvcd.poses([[1, 2, 3]], order), [[1, 2, 3, 0, 0, 0, 1]])
+            np.testing.assert_array_equal(nsvcd.poses(np.eye(4), order), IDENTITY)
+        self.assertEqual(nsvcd.poses(np.eye(4, dtype=int), to="wxyz").tolist(), [0, 0, 0, 1, 0, 0, 0])
+        # a quarter turn about x, as MuJoCo writes it, is not one about z
+        rod = Body.capsule([0, 0, 0], [0, 0, 1], 0.1)
+        turned = [0, 0, 0, 0.5 ** 0.5, 0.5 ** 0.5, 0, 0]
+        probe = Body.sphere(0.1)
+        self.assertTrue(nsvcd.sweep(rod, probe, nsvcd.poses(turned, order="wxyz"), [0, -1, 0]))
+        self.assertFalse(nsvcd.sweep(rod, probe, nsvcd.poses(turned, order="wxyz"), [0, 0, 1]))
+        given = xyzw.copy()
+        nsvcd.poses(given)[:] = 0
+        np.testing.assert_array_equal(given, xyzw)
+
+    def test_refused(self) -> None:
+        turn = np.array([[0, -1, 0], [1, 0, 0], [0, 0, 1]])
+        for wrong, words in ((turn, "a rotation matrix, or three positions"), (np.eye(3), "rotation matrix"),
+                             (np.tile(turn, (5, 1, 1)), "rotation matrix"), (np.zeros((3, 4)), "lacks its row"),
+                             (np.zeros((2, 6)), "a twist, or Euler"), (np.zeros(4), "lacks its position"), (np.zeros(()), r"not \(\)"),
+                             (np.zeros((2, 3, 4, 7)), r"at most \(n, k, 7\)"), (np.diag([2.0, 2, 2, 1]), "scales, by 2"),
+                             (np.eye(4)[:, [0, 1, 2, 2]], "last row")):
+            with self.assertRaisesRegex(ValueError, "^poses_b: .*" + words):
+                nsvcd.sweep(self.ball, self.ball, None, wrong)
+        self.assertEqual(nsvcd.sweep(self.ball, self.ball, 3 * np.eye(3)).verdict, "free")  # three positions
+        many = np.zeros((2, 3, 7)) + IDENTITY
+        world, robot = nsvcd.World(1), nsvcd.Robot([nsvcd.Joint(0)], [])
+        for call in (lambda: nsvcd.certify(Mesh.box([1, 1, 1]), Mesh.box([1, 1, 1]), many), lambda: world.sweep(self.ball, many),
+                     lambda: nsvcd.contacts(self.ball, self.ball, many[0], clearance=1), lambda: world.add(self.ball, many[0]),
+                     lambda: nsvcd.sweep_gradient(self.ball, self.ball, many), lambda: robot.reach([0], many, 1),
+                     lambda: nsvcd.poses(many, order="wzyx"), lambda: nsvcd.sweep(self.ball, self.ball, many, threads=0)):
+            self.assertRaises(ValueError, call)
+        self.assertRaises(TypeError, nsvcd.poses, ["a", "b", "c"])
+        self.assertRaises(TypeError, nsvcd.sweep, self.ball, self.ball, many, threads=1.5)
+
+    def test_records(self) -> None:
+        """What many answers are: by name, by attribute, by row; pickled and chosen from."""
+        mug, rack = (Body(ASSETS / f"{name}.obj") for name in ("mug", "dish_rack"))
+        paths = np.zeros((50, 2, 3)) + [[0, -0.4, 0.3], [0, 0, 0]]
+        paths[:, :, 0] = np.linspace(-0.5, 0.5, 50)[:, None]
+        answers = nsvcd.sweep(mug, rack, paths, ask="first", to_time=0.01)
+        again = pickle.loads(pickle.dumps(answers))
+        for found in (answers, again, answers[:], copy.copy(answers)):
+            hits = found.verdict == nsvcd.Verdict.HIT
+            self.assertTrue(0 < hits.sum() < 50)
+            np.testing.assert_array_equal(found.time.high, found["time"]["high"])
+            first = int(np.flatnonzero(hits)[0])
+            one = nsvcd.sweep(mug, rack, paths[first], ask="first", to_time=0.01)
+            self.assertEqual((found[first].verdict, found[first].time.high, found[hits][0].contact_count),
+                             (one.verdict, one.time.high, len(one.contacts)))
+            self.assertEqual(found[first].safe.a.position.tolist(), list(one.safe.a[:3]))
+
+    def test_threads(self) -> None:
+        mug, rack = (Body(ASSETS / f"{name}.obj") for name in ("mug", "dish_rack"))
+        paths = self.random.normal(0, 0.2, (1001, 2, 3))
+        alone = nsvcd.sweep(mug, rack, paths, ask="first", to=0.001)
+        for threads in (2, 5):
+            np.testing.assert_array_equal(nsvcd.sweep(mug, rack, paths, ask="first", to=0.001, threads=threads), alone)
+        self.assertEqual(len(nsvcd.sweep(mug, rack, paths[:3], threads=4)), 3)
+        self.assertEqual(len(nsvcd.sweep(mug, rack, paths[:0], threads=4)), 0)
+        times = np.tile([0.0, 1.0], (1001, 1))
+        times[700, 0], paths[800, 1, 1] = 0.5, np.nan
+        for threads in (1, 3):
+            with self.assertRaises(Error) as raised:
+                nsvcd.sweep(mug, rack, paths, times_a=times, threads=threads)
+            self.assertEqual((raised.exception.code, raised.exception.index), (Code.TIMES, 700))
 
 
 class Types(unittest.TestCase):

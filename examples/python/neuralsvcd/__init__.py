@@ -7,7 +7,7 @@
 
 Units are metres and radians, time is in [0, 1]. A pose is x y z and a unit quaternion x y z w; a
 motion is an array (k, 7) of poses, uniform in time, position linear and rotation slerp in between.
-Wherever there are poses, rigid 4x4 matrices may be instead: poses_from_matrices.
+Wherever there are poses, rigid 4x4 matrices may be instead: poses.
 Arrays may be of any numeric type and stride: they are copied, as float32. What an answer is worth,
 and what each option and field means in full, is said in neuralsvcd.h under the same names.
 
@@ -16,12 +16,11 @@ works, other Python threads run. What it refuses is raised as Error; arrays of t
 ValueError and TypeError.
 """
 from .answers import Answer as Answer, Contact as Contact, Opinion as Opinion, Range as Range, SafePlace as SafePlace
-from .batches import sweep_batch as sweep_batch
 from .bodies import Body as Body, BodyLike as BodyLike, Facts as Facts
 from .certificates import Certificate as Certificate, Tree as Tree, TreeLike as TreeLike, certify as certify
 from .errors import Error as Error
 from .meshes import Mass as Mass, Mesh as Mesh, MeshLike as MeshLike
-from .motions import poses_from_matrices as poses_from_matrices
+from .motions import poses as poses
 from .movers import Movers as Movers, Step as Step, WorldContact as WorldContact
 from .plans import (
     Plan as Plan, Progress as Progress, Stage as Stage, plan as plan, spline as spline)

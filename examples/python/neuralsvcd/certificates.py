@@ -16,7 +16,7 @@ from ._arrays import _address, _filled, _memory
 from .bodies import Body
 from .meshes import _c_mesh, MeshLike, _surface_of
 from .answers import Answer
-from .sweeps import _question, _question_of
+from .sweeps import _motions, _question, _question_of
 
 
 class Tree:
@@ -81,7 +81,7 @@ def certify(a: TreeLike, b: TreeLike, poses_a: Optional[ArrayLike] = None, poses
     visits     steps that may be taken; 1000000
     """
     trees = _tree_of(a, "a"), _tree_of(b, "b")
-    question = _question((None, None), poses_a, poses_b, times_a, times_b, scale_a, scale_b, _question_of(clearance=clearance))
+    question = _question((None, None), _motions(poses_a, poses_b, times_a, times_b), scale_a, scale_b, _question_of(clearance=clearance))
     options = _filled(_CertifyOptions, visits=visits)
     if answer is not None:
         named = answer.nearest

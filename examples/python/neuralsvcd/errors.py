@@ -16,7 +16,7 @@ class Error(Exception):
     code   why
     where  of a file its name, of an argument that, or ""
     line   of a file that is text, from 1; 0: none is at fault
-    index  of sweep_batch: the first motion at fault; of World.step: the mover; else None
+    index  of many motions: the first at fault; of World.step: the mover; else None
     reason in words, where a reader knows more than the code says, else ""
     """
 

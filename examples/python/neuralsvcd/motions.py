@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Poses and motions, as arrays (k, 7) or rigid matrices."""
+"""Poses and motions: (k, 7), positions, or rigid matrices."""
 from __future__ import annotations
 
 import math
@@ -7,25 +7,58 @@ from ctypes import c_float
 from typing import Any, NamedTuple, Optional
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from ._structs import _Pose
-from ._arrays import Doubles, _floats, Floats, _numeric
+from ._arrays import Doubles, _floats, Floats
 
 
-def poses_from_matrices(matrices: ArrayLike) -> Doubles:
-    """Poses (..., 7) of rigid matrices (..., 4, 4), which take points as columns; nsvcd_verify is to be given these too.
+_ORDERS = ("xyzw", "wxyz")
 
-    ValueError where one is not rigid to 1e-4.
+
+def poses(given: ArrayLike, order: str = "xyzw", *, to: str = "xyzw") -> Doubles:
+    """Poses (..., 7), as all functions here take and return them: x y z in metres, unit quaternion x y z w.
+
+    given  (..., 7), (..., 3) positions without a rotation, or (..., 4, 4) rigid matrices, which take points as columns
+    order  of the quaternions given: "xyzw" is that of scipy, pinocchio, ROS and PyBullet; "wxyz" that of MuJoCo and Eigen's
+           constructor: sweep(a, b, poses(qpos, order="wxyz"))
+    to     of those returned: poses(answer.safe.a, to="wxyz")
+
+    ValueError where a matrix is not rigid to 1e-4, and for other shapes. Quaternions are not normalized.
     """
-    return np.asarray(_posed(_numeric(matrices, (None,) * (np.ndim(matrices) - 2) + (4, 4), "matrices"), "matrices"))
+    for name, word in (("order", order), ("to", to)):
+        if word not in _ORDERS:
+            raise ValueError(f"{name}: {word!r} is none of {', '.join(_ORDERS)}")
+    rows = np.array(_rows(given, "poses"), np.float64)
+    if order != "xyzw" and np.shape(given)[-1:] == (7,):
+        rows = rows[..., [0, 1, 2, 4, 5, 6, 3]]
+    return rows if to == "xyzw" else rows[..., [0, 1, 2, 6, 3, 4, 5]]
 
 
-def _posed(poses: Any, name: str) -> Any:
-    """Poses, also where they are given as matrices."""
+def _rows(poses: Any, name: str) -> NDArray[Any]:
+    """Poses (..., 7), also where they are given as positions or as matrices."""
     given = np.asarray(poses)
-    if given.shape[-2:] != (4, 4) or given.dtype.kind not in "fiu":
+    if given.dtype.kind not in "fiu":
+        raise TypeError(f"{name}: an array of numbers is needed, not of {given.dtype}")
+    shape = given.shape
+    if shape[-1:] == (7,):
         return given
+    if shape[-2:] == (4, 4):
+        return _of_matrices(given, name)
+    if shape[-1:] == (3,):
+        if shape[-2:] == (3, 3) and np.allclose(given @ np.swapaxes(given, -1, -2), np.eye(3), atol=1e-4):
+            raise ValueError(f"{name}: {shape}: a rotation matrix, or three positions? Give a rotation as a 4x4 matrix, "
+                             "positions as poses (3, 7)")
+        rows = np.zeros((*shape[:-1], 7), given.dtype if given.dtype.kind == "f" else np.float64)
+        rows[..., :3], rows[..., 6] = given, 1
+        return rows
+    hint = {(3, 4): "a 3x4 matrix lacks its row 0 0 0 1", (6,): "6 numbers are a twist, or Euler angles: a pose has a quaternion",
+            (4,): "a quaternion alone lacks its position"}
+    why = next((text for end, text in hint.items() if shape[-len(end):] == end), "")
+    raise ValueError(f"{name}: (..., 7), (..., 3) or (..., 4, 4) is needed, not {shape}" + (f": {why}" if why else ""))
+
+
+def _of_matrices(given: NDArray[Any], name: str) -> Doubles:
     m = given.astype(np.float64)
     if not np.isfinite(m).all() or (np.abs(m[..., 3, :] - [0, 0, 0, 1]) > 1e-4).any():
         raise ValueError(f"{name}: not finite, or a last row that is not 0 0 0 1: are points rows here? transpose it")
@@ -52,29 +85,32 @@ def _posed(poses: Any, name: str) -> Any:
 
 
 class _Motion(NamedTuple):
-    """(k, 7), and (k) or None; of a batch there may be (n, k, 7) and (n, k). poses None: at rest at the origin."""
+    """(k, 7), and (k) or None; of many motions (n, k, 7) or (n, k). poses None: at rest at the origin."""
     poses: Optional[Floats]
     times: Optional[Floats]
 
+    def are_many(self) -> bool:
+        return self.poses is not None and (self.poses.ndim > 2 or self.times is not None and self.times.ndim > 1)
 
-def _motion(poses: Optional[ArrayLike], times: Optional[ArrayLike], side: str, batch: bool = False) -> _Motion:
+
+def _motion(poses: Optional[ArrayLike], times: Optional[ArrayLike], suffix: str = "", *, one: bool = False) -> _Motion:
+    """suffix: of the names of both. one: there are not to be many."""
     if poses is None:
         if times is not None:
-            raise ValueError(f"times_{side}: there are no poses")
+            raise ValueError(f"times{suffix}: there are no poses")
         return _Motion(None, None)
-    given = np.asarray(poses)
-    if given.shape[-2:] == (4, 4):
-        given = _posed(given if given.ndim > 2 else given[None], f"poses_{side}")
-    each = (None,) if batch and given.ndim != 2 else ()
-    kept = _floats(given, (*each, None, 7), f"poses_{side}")
+    rows = _rows(poses, f"poses{suffix}")
+    kept = np.array(rows if rows.ndim > 1 else rows[None], np.float32, order="C")
+    if kept.ndim > (2 if one else 3):
+        raise ValueError(f"poses{suffix}: {'one motion (k, 7) is' if one else 'at most (n, k, 7) are'} needed, not {rows.shape}")
     if not kept.shape[-2]:
-        raise ValueError(f"poses_{side}: no pose; None is at rest at the origin")
+        raise ValueError(f"poses{suffix}: no pose; None is at rest at the origin")
     if times is None:
         return _Motion(kept, None)
-    each = (None,) if batch and np.ndim(times) != 1 else ()
-    return _Motion(kept, _floats(times, (*each, kept.shape[-2]), f"times_{side}"))
+    each = () if one or np.ndim(times) == 1 else (None,)
+    return _Motion(kept, _floats(times, (*each, kept.shape[-2]), f"times{suffix}"))
 
 
 def _pose_of(pose: ArrayLike, name: str) -> Any:
-    row = _floats(_posed(pose, name), (7,), name).tolist()
+    row = _floats(_rows(pose, name), (7,), name).tolist()
     return _Pose((c_float * 3)(*row[:3]), (c_float * 4)(*row[3:]))

@@ -19,7 +19,7 @@ from ._library import _library
 from .errors import _check
 from ._arrays import _address, _cancels, Floats, _floats, _indices, _memory, _filled, _numeric
 from .bodies import _body_of, BodyLike
-from .motions import _posed
+from .motions import _rows
 from .sweeps import _question_of
 
 
@@ -142,10 +142,11 @@ def plan(bodies: Sequence[Optional[BodyLike]], pairs: ArrayLike, kinematics: Cal
     met = _indices(pairs, 2, "pairs")
     caught: list[BaseException] = []
 
-    def call(function: Callable[[Floats], ArrayLike], name: str, given: int, out: int, *shape: int) -> None:
+    def call(function: Callable[[Floats], ArrayLike], name: str, posed: Any, given: int, out: int, *shape: int) -> None:
         target = _view(out, *shape)
         try:
-            target[:] = np.nan if caught else _numeric(_posed(function(_view(given, joints).copy()), name), shape, name)
+            target[:] = np.nan if caught else _numeric(
+                posed(function(_view(given, joints).copy()), name), shape, name)
         except BaseException as error:  # ctypes would swallow it
             caught.append(error)
             target[:] = np.nan
@@ -160,11 +161,11 @@ def plan(bodies: Sequence[Optional[BodyLike]], pairs: ArrayLike, kinematics: Cal
     problem = _PlanProblem(
         joints=joints, start=_address(rows[0]), goal=_address(rows[1]), low=_address(rows[2]), high=_address(rows[3]),
         bodies=ctypes.addressof(addresses), body_count=len(kept), pairs=_address(met), pair_count=len(met),
-        kinematics=_PLACE(lambda _, given, out: call(kinematics, "kinematics", given, out, len(kept), 7)),
+        kinematics=_PLACE(lambda _, given, out: call(kinematics, "kinematics", _rows, given, out, len(kept), 7)),
         progress=_PLAN_PROGRESS(lambda user, address: _cancels(tell, caught, address, user)))
     if jacobian:
         derive = jacobian
-        problem.jacobian = _PLACE(lambda _, given, out: call(derive, "jacobian", given, out, len(kept), 6, joints))
+        problem.jacobian = _PLACE(lambda _, given, out: call(derive, "jacobian", lambda rows, _: rows, given, out, len(kept), 6, joints))
     options = _filled(_PlanOptions, seed=seed, seeds=seeds, velocity=velocity, acceleration=acceleration, jerk=jerk,
                       collision=collision, duration=duration, margin=margin, discrete=bool(discrete), check=check)
     options.explore, options.refine = (_filled(_PlanStage, **stage._asdict()) for stage in (explore, refine))

@@ -156,7 +156,7 @@ class RouteStatus(enum.IntEnum):
     GOAL = 4
 
 
-NO_TRIANGLE = 0xffffffff  # in the arrays of sweep_batch
+NO_TRIANGLE = 0xffffffff  # in the arrays of sweep
 LEAVE_OUT = c_size_t(-1).value  # Stage.iterations
 _PREFIXES: dict[Any, str] = {
     Code: "ERROR_", Ask: "ASK_", Verdict: "", By: "BY_", Why: "WHY_", Model: "MODEL_", Precision: "PRECISION_",

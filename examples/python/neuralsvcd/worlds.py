@@ -21,7 +21,8 @@ from ._arrays import _address, _filled, Floats, _floats, _IDENTITY, _memory, _nu
 from .bodies import Body, _body_of, BodyLike
 from .motions import _motion, _pose_of
 from .answers import _packed, Range
-from .sweeps import _asked, _workspace
+from .batches import _workspace
+from .sweeps import _asked
 from .movers import Movers, Step, _world_contacts, WorldContact
 
 
@@ -366,8 +367,7 @@ def _id_of(id: Any) -> Any:
 def _world_question(mover: Union[int, BodyLike], poses: Optional[ArrayLike], times: Optional[ArrayLike], scale: float, pivot: ArrayLike,
                     groups: int, passes: int, ignore: int, asked_of_it: Any) -> Any:
     asked = _filled(_WorldQuestion, groups=groups, passes=passes, self=ignore)
-    given = np.asarray(poses) if poses is not None else None
-    motion = _motion(given[None] if given is not None and given.shape == (7,) else given, times, "mover")
+    motion = _motion(poses, times, one=True)
     asked.question = asked_of_it
     a = asked.question.a
     body: Optional[Body] = None
