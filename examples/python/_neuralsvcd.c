@@ -102,6 +102,12 @@ const char *neuralsvcd_mesh_parse(const char *name, const void *data, size_t siz
   return fault.reason;
 }
 
+extern const char *neuralsvcd_version(void);
+
+const char *neuralsvcd_version(void) {
+  return NSVCD_VERSION;
+}
+
 // A struct is at 0, a field at its offset; a constant has its value for the place, and no size.
 typedef struct neuralsvcd_layout {
   const char *name;

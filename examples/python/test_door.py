@@ -7,6 +7,8 @@ import pickle
 import pydoc
 import shutil
 import subprocess
+import sys
+import tempfile
 import unittest
 from pathlib import Path
 
@@ -18,6 +20,7 @@ from neuralsvcd import Body, Code, Error, Mesh
 
 HERE = Path(__file__).resolve().parent
 ASSETS = HERE.parent / "assets"
+SVCD = HERE.parents[1] / "build" / "svcd"
 IDENTITY = [0, 0, 0, 0, 0, 0, 1]
 
 
@@ -241,6 +244,107 @@ class Poses(unittest.TestCase):
             with self.assertRaises(Error) as raised:
                 nsvcd.sweep(mug, rack, paths, times_a=times, threads=threads)
             self.assertEqual((raised.exception.code, raised.exception.index), (Code.TIMES, 700))
+
+
+class Urdf(unittest.TestCase):
+    """The arm of examples/robot among its shelf, against svcd, which reads what urdf.py writes, and against tests/place.py."""
+    FOLDER = HERE.parent / "robot"
+    LOW = [-2.649, -0.708, -1.763, 2.470, 1.078, -1.057]
+    UP = [-0.493, 0.360, 0.877, 1.905, 1.078, 0.076]
+
+    @classmethod
+    def setUpClass(cls) -> None:
+        cls.arm = nsvcd.Robot.from_urdf(cls.FOLDER / "arm.urdf", srdf=cls.FOLDER / "arm.srdf", obstacles=cls.FOLDER / "shelf.urdf")
+
+    def written(self, folder: Path, text: str) -> Path:
+        path = folder / "robot.urdf"
+        path.write_text(f"<robot name='r'>{text}</robot>")
+        return path
+
+    def test_as_svcd_has_it(self) -> None:
+        self.assertEqual(self.arm.joint_names, ("pan", "lift", "elbow", "wrist_1", "wrist_2", "wrist_3"))
+        self.assertEqual(self.arm.part_names[6:10], ("palm", "left_finger", "right_finger", "floor"))
+        self.assertEqual(len(self.arm.pairs), 24 + 8 * 7)
+        straight = self.arm.check([self.LOW, self.UP])
+        self.assertEqual((straight.verdict, self.arm.pair_names(straight.pair)), ("hit", ("wrist_a", "board_2")))
+        route = self.arm.route(self.LOW, self.UP)
+        self.assertEqual(route.status, nsvcd.RouteStatus.FOUND)
+        if not SVCD.exists():
+            self.skipTest("no build/svcd: not tested")
+        with tempfile.TemporaryDirectory() as folder:
+            file = Path(folder) / "robot.txt"
+            subprocess.run([sys.executable, "urdf.py", "arm.urdf", "--srdf", "arm.srdf", "--scene", "shelf", "shelf.urdf", file],
+                           cwd=self.FOLDER, check=True)
+            with file.open("a") as text:
+                text.write((self.FOLDER / "plans.txt").read_text())
+            said = [subprocess.run([SVCD, word, file], capture_output=True, text=True).stdout.splitlines()[0].split("\t")
+                    for word in ("path", "plan")]
+            joints = [1, 2, 0.5, 0.1, 0.2, 0.3]
+            place = subprocess.run([sys.executable, HERE.parents[1] / "tests" / "place.py", file, "palm", *map(str, joints)],
+                                   capture_output=True, text=True, check=True).stdout.split()
+        self.assertEqual(said[0][:2] + said[0][4:6], ["straight", "hit", "wrist_a", "board_2"])
+        self.assertAlmostEqual(float(said[0][3]), straight.fraction, 6)
+        self.assertAlmostEqual(float(said[1][3]), route.duration, 5)
+        palm = self.arm.forward_kinematics(joints)[6]
+        np.testing.assert_allclose(palm * np.sign(palm[6] * float(place[6])), np.float64(place), atol=1e-6)
+
+    def test_by_name(self) -> None:
+        low, up = (dict(zip(self.arm.joint_names, joints)) for joints in (self.LOW, self.UP))
+        self.assertEqual(self.arm.check(low), self.arm.check(self.LOW))
+        both = {name: [low[name], up[name]] for name in reversed(self.arm.joint_names)}
+        self.assertEqual(self.arm.check(both), self.arm.check([self.LOW, self.UP]))
+        self.assertEqual(self.arm.check([low, up]), self.arm.check([self.LOW, self.UP]))
+        self.assertEqual(self.arm.check({**low, "pan": [0, 1]}), self.arm.check([[0, *self.LOW[1:]], [1, *self.LOW[1:]]]))
+        self.assertEqual(self.arm.route(low, [low, up]).goal, 0)
+        np.testing.assert_array_equal(self.arm.forward_kinematics(up), self.arm.forward_kinematics(self.UP))
+        self.assertEqual(len(self.arm.proximities(low, max_distance=0.1)), len(self.arm.proximities(self.LOW, max_distance=0.1)))
+        for wrong, words in (({**low, "wrist": 0}, "^points: no joint wrist$"), ({"lift": 0, "palm": 1}, "no joint palm, pan is missing"),
+                             ({}, "pan is missing, lift is missing")):
+            with self.assertRaisesRegex(ValueError, words):
+                self.arm.check(wrong)
+
+    def test_what_a_urdf_has(self) -> None:
+        """A gripper of two fingers, one of which mimics the other, a mesh mirrored, and a warning."""
+        fingers = "".join(f"<link name='{name}'><collision><geometry>{shape}</geometry></collision></link>" for name, shape in (
+            ("hand", "<box size='1 0.1 0.1'/>"), ("left", "<mesh filename='left.obj' scale='-1 0.5 1'/>"), ("right", "<sphere radius='0.1'/>")))
+        joint = ("<joint name='{0}' type='prismatic'><parent link='hand'/><child link='{0}'/><origin xyz='0 0 0.5'/><axis xyz='{1} 0 0'/>"
+                 "<limit lower='0' upper='1' velocity='{2}'/>{3}</joint>")
+        mimic = "<mimic joint='left' multiplier='2' offset='0.1'/>"
+        with tempfile.TemporaryDirectory() as name:
+            folder = Path(name)
+            mesh = Mesh.box([0.4, 0.4, 0.4])
+            lines = [*("v {} {} {}".format(*(corner + [1, 0, 0])) for corner in mesh.vertices), *("f {} {} {}".format(*row + 1) for row in mesh.faces)]
+            (folder / "left.obj").write_text("\n".join(lines))
+            path = self.written(folder, fingers + joint.format("left", -1, 3, "") + joint.format("right", 1, 3, mimic))
+            hand = nsvcd.Robot.from_urdf(path, obstacles=[nsvcd.Part(Body.sphere(0.1), 0, [9, 0, 0], name="far")])
+            self.assertEqual((hand.joint_names, hand.part_names), (("left", "right"), ("hand", "left", "right", "far")))
+            self.assertEqual({hand.pair_names(k) for k in range(len(hand.pairs))}, {("left", "right"), ("left", "far"), ("right", "far")})
+            at = hand.forward_kinematics({"left": 0.2})
+            np.testing.assert_allclose(at[1:3, :3], [[-0.2, 0, 0.5], [0.5, 0, 0.5]], atol=1e-6)
+            # the mirrored box ends at x = -0.8, the ball, which is a mesh of 32 sides, begins at 0
+            found, = hand.proximities({"left": 0}, max_distance=2, to=1e-5)
+            self.assertAlmostEqual(found.distance.low, 0.8, delta=0.002)
+            with self.assertRaisesRegex(ValueError, "no joint that moves"):
+                nsvcd.Robot.from_urdf(path, fixed={"left": 0.2})
+        self.assertEqual(hand.check({"left": [0, 0.4]}).verdict, "free")
+
+    def test_refused(self) -> None:
+        link = "<link name='a'><collision><geometry><box size='1 1 1'/></geometry></collision></link>"
+        floating = link + link.replace("'a'", "'b'") + "<joint name='j' type='{}'><parent link='a'/><child link='b'/>{}</joint>"
+        with tempfile.TemporaryDirectory() as name:
+            folder = Path(name)
+            for text, words in ((floating.format("floating", ""), "joint j: it is 'floating'.*--fixed j holds it"),
+                                (link + "<gizmo/>", "what is.*gizmo"), ("", "no link"),
+                                (floating.format("revolute", ""), "joint j: no limits")):
+                with self.assertRaisesRegex(ValueError, words):
+                    nsvcd.Robot.from_urdf(self.written(folder, text))
+            turning = self.written(folder, floating.format("continuous", ""))
+            with self.assertWarnsRegex(UserWarning, "joint j: no velocity"):
+                nsvcd.Robot.from_urdf(turning)
+            with self.assertRaisesRegex(ValueError, "no joint k"):
+                nsvcd.Robot.from_urdf(turning, velocity=1, fixed={"k": 0})
+            with self.assertRaises(ValueError):
+                nsvcd.Robot.from_urdf(folder / "none.urdf")
 
 
 class Types(unittest.TestCase):

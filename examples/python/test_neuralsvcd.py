@@ -2049,6 +2049,7 @@ class Wheel(unittest.TestCase):
             for part in ("verify", "scenery"):
                 shutil.copytree(HERE.parent / part, folder / "checkout" / "examples" / part,
                                 ignore=lambda _, names: [name for name in names if not name.endswith(".h")])
+            shutil.copytree(HERE.parent / "robot", folder / "checkout" / "examples" / "robot")
             shutil.copytree(ROOT / "extras", folder / "checkout" / "extras")
             for file in ("neuralsvcd.h", "weights.h", "LICENSE"):
                 shutil.copy(ROOT / file, folder / "checkout")
@@ -2072,7 +2073,7 @@ class Wheel(unittest.TestCase):
             wheel, = folder.glob("*.whl")
             self.assertIn("-abi3-", wheel.name)
             names = zipfile.ZipFile(wheel).namelist()
-            for part in ("neuralsvcd/__init__.py", "neuralsvcd/_neuralsvcd.abi3.so", "neuralsvcd/py.typed",
+            for part in ("neuralsvcd/__init__.py", "neuralsvcd/sweeps.py", "neuralsvcd/_urdf.py", "neuralsvcd/_neuralsvcd.abi3.so", "neuralsvcd/py.typed",
                          "nsvcd_verify/__init__.py", "nsvcd_verify/_nsvcd_verify.abi3.so", "nsvcd_verify/py.typed"):
                 self.assertIn(part, names)
             self.assertTrue(any(part.endswith("LICENSE") for part in names))
@@ -2080,6 +2081,9 @@ class Wheel(unittest.TestCase):
             python = folder / "own" / "bin" / "python"
             run(python, *pip, "install", "--no-deps", "--no-index", wheel)
             shutil.copy(ASSETS / "mug.obj", folder)
+            run(python, "-c", "import neuralsvcd as n; assert n.Robot.from_urdf('arm.urdf').check([0] * 6).verdict == 'free'; "
+                f"assert n.__version__ == {nsvcd.__version__!r}; assert '-{nsvcd.__version__}-' in {wheel.name!r}",
+                cwd=shutil.copytree(HERE.parent / "robot", folder / "robot"))
             printed = run(python, "-c", "import nsvcd_verify, neuralsvcd as n; mug = n.Body('mug.obj');"
                           "print(n.__file__, n.sweep(mug, mug, [[0.01, 0, 0, 0, 0, 0, 1]]).verdict)")
             self.assertRegex(printed, rf"^{re.escape(str(folder.resolve() / 'own'))}/\S*neuralsvcd/__init__\.py hit\n$")

@@ -15,6 +15,7 @@ Threads may share everything here but Movers. The library has its memory for eac
 works, other Python threads run. What it refuses is raised as Error; arrays of the wrong shape or type are
 ValueError and TypeError.
 """
+from ._library import __version__ as __version__
 from .answers import Answer as Answer, Contact as Contact, Opinion as Opinion, Range as Range, SafePlace as SafePlace
 from .bodies import Body as Body, BodyLike as BodyLike, Facts as Facts
 from .certificates import Certificate as Certificate, Tree as Tree, TreeLike as TreeLike, certify as certify
@@ -25,7 +26,7 @@ from .movers import Movers as Movers, Step as Step, WorldContact as WorldContact
 from .plans import (
     Plan as Plan, Progress as Progress, Stage as Stage, plan as plan, spline as spline)
 from .robots import (
-    Checked as Checked, Joint as Joint, Motion as Motion, Part as Part, Proximity as Proximity, Reached as Reached,
+    Checked as Checked, Joint as Joint, Joints as Joints, Motion as Motion, Part as Part, Proximity as Proximity, Reached as Reached,
     Robot as Robot, Route as Route)
 from .sweeps import (
     Gradient as Gradient, contacts as contacts, sweep as sweep, sweep_gradient as sweep_gradient)

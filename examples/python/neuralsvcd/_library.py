@@ -63,6 +63,7 @@ _PROTOTYPES = {
     "nsvcd_world_step": (c_int, c_void_p, c_void_p, c_size_t, c_void_p, c_float, c_void_p, c_size_t, c_void_p),
     "neuralsvcd_mesh_parse": (c_char_p, c_char_p, c_char_p, c_size_t, c_void_p, c_void_p, c_void_p, c_void_p),
     "neuralsvcd_layouts": (c_void_p, c_void_p),
+    "neuralsvcd_version": (c_char_p,),
 }
 
 
@@ -106,3 +107,4 @@ def _load_library() -> ctypes.CDLL:
 
 
 _library = _load_library()
+__version__: str = _library.neuralsvcd_version().decode()

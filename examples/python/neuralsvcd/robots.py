@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import ctypes
 import math
-from collections.abc import Callable, Sequence
+import operator
+from collections.abc import Callable, Mapping, Sequence
 from ctypes import byref, c_double, c_float, c_int, c_size_t, c_uint32, c_uint64, c_void_p
-from typing import Any, NamedTuple, Optional
+from typing import Any, NamedTuple, Optional, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -19,11 +20,14 @@ from ._structs import (
 from ._library import _library
 from .errors import _check
 from ._arrays import (
-    _address, _cancels, _doubles, Doubles, _filled, Floats, _floats, _IDENTITY, _indices, _memory, _number, _vector,
-    Vector)
+    _address, _cancels, _doubles, Doubles, FilePath, _filled, Floats, _floats, _IDENTITY, _indices, _memory, _number,
+    _vector, Vector)
 from .bodies import _body_of, BodyLike
 from .motions import _pose_of
 from .answers import Range
+from .urdfs import _read_urdf
+
+Joints = Union[ArrayLike, Mapping[str, ArrayLike]]
 
 
 class Joint(NamedTuple):
@@ -34,6 +38,7 @@ class Joint(NamedTuple):
     low, high      limits, radians or metres; not read of CONTINUOUS
     speed, acceleration  what a route keeps to; 0: 1
     mimic          the index of the joint that this one mimics; its value is always multiplier * that of the other + offset
+    name           by which joints may be given: {"elbow": 1.5, ...}
     """
     parent: int
     origin: ArrayLike = _IDENTITY
@@ -46,6 +51,7 @@ class Joint(NamedTuple):
     mimic: Optional[int] = None
     multiplier: float = 1
     offset: float = 0
+    name: str = ""
 
 
 class Part(NamedTuple):
@@ -54,6 +60,7 @@ class Part(NamedTuple):
     link: int = 0
     pose: ArrayLike = _IDENTITY
     scale: float = 0
+    name: str = ""
 
 
 class Motion(NamedTuple):
@@ -195,6 +202,13 @@ def _motion_of(points: ArrayLike, joints: int, degree: int, times: Optional[Arra
 class Robot:
     """Joints, parts on their links, and which parts can meet: nsvcd_scene and its checker. One thread at a time.
 
+        arm = Robot.from_urdf("arm.urdf", srdf="arm.srdf", obstacles="shelf.urdf")
+        route = arm.route({"pan": -2.6, "lift": -0.7, ...}, goal)
+        if route.status == RouteStatus.FOUND: send(route.at(np.arange(0, route.duration, 0.01)))
+
+    Configurations are arrays (F) of all joints, radians and metres, in float64; or, where joints have names, what maps each
+    name to its value, or to (n) of them; joints that mimic others may be left out.
+
     pairs  (P, 2) of parts, on links that differ; None: all but those that one joint separates, as `find_pairs` says.
            Also those that touch in all samples, which is no proof that they always do
     clearances  (P) metres that each of these pairs keeps, beside what `check` and `route` are asked for; None: 0
@@ -209,6 +223,9 @@ class Robot:
             raise TypeError("clearances, allowances: of which pairs?")
         self._clearances: Optional[NDArray[np.float32]] = None
         self.joint_count, self.part_count = len(joints), len(parts)
+        self.joint_names = tuple(joint.name for joint in joints)
+        self.part_names = tuple(part.name for part in parts)
+        self._mimics = [(k, j.mimic, j.multiplier, j.offset) for k, j in enumerate(joints) if j.mimic is not None]
         self._joints = (_Joint * max(len(joints), 1))(*(
             _Joint(_number_of(JointKind(j.kind)), _number(c_uint32, j.parent, "parent"), _pose_of(j.origin, "origin"),
                    (c_float * 3)(*_floats(j.axis, (3,), "axis").tolist()), j.low, j.high, j.speed, j.acceleration,
@@ -232,6 +249,52 @@ class Robot:
         if pairs is None:
             asked, _, touching = self.find_pairs()
             self._open(np.concatenate([asked, touching]))
+
+    @classmethod
+    def from_urdf(cls, path: FilePath, *, srdf: Optional[FilePath] = None, obstacles: Union[FilePath, Sequence[Part]] = (),
+                  fixed: Mapping[str, float] = {}, package: Mapping[str, FilePath] = {}, ignore: Sequence[str] = (),
+                  velocity: Optional[float] = None, round: Optional[float] = None, balls: int = 128) -> Robot:
+        """The robot of a URDF, as `svcd plan` has it. What is not understood is refused, by link or joint: nothing is left
+        out. Joints and parts have their names; fixed joints vanish: what is on them is on the link before.
+
+        srdf       whose disabled pairs are not asked; else all pairs but those that a single joint connects are
+        obstacles  a URDF without joints that move, or Parts on link 0: each is asked with all that moves
+        fixed      joints that stand at a value, and so do those that mimic them
+        package    where package://NAME is; by default at, beside or above the URDF, or where ROS has it
+        ignore     elements and attributes that are not known, and may be left out
+        velocity   of joints that have none; 1, with a warning
+        round      metres that the corners of what is round may stand out; 0.5 % of the radius, of balls 1 %
+        balls      of each part that moves, for routes: see Body
+
+        ValueError: what is refused, and which of these lets it pass: "--fixed gripper" is fixed={"gripper": 0}. Error and
+        OSError: of a mesh.
+        """
+        scene = _read_urdf(path, srdf, obstacles, fixed, package, ignore, velocity, round, balls)
+        return cls([Joint(**joint) for joint in scene.joints], [Part(**part) for part in scene.parts],
+                   np.array(scene.pairs, np.uint32).reshape(-1, 2))
+
+    def pair_names(self, pair: int) -> tuple[str, str]:
+        """The names of the two parts of a pair, as an answer has it: Checked.pair, Proximity.pair."""
+        a, b = self._pairs[operator.index(pair)].tolist()
+        return self.part_names[a], self.part_names[b]
+
+    def _rows(self, given: Any, name: str) -> Any:
+        """Configurations, also where they are given by the names of joints."""
+        if isinstance(given, (list, tuple)) and given and all(isinstance(row, Mapping) for row in given):
+            return np.stack([self._rows(row, name) for row in given])
+        if not isinstance(given, Mapping):
+            return given
+        unknown = [str(joint) for joint in given if joint not in self.joint_names]
+        missing = {joint for joint in self.joint_names} - set(given) - {self.joint_names[k] for k, *_ in self._mimics}
+        if unknown or missing:
+            raise ValueError(f"{name}: " + ", ".join([*(f"no joint {joint}" for joint in unknown),
+                                                      *(f"{joint} is missing" for joint in self.joint_names if joint in missing)]))
+        columns = np.broadcast_arrays(*(np.float64(given.get(joint, 0)) for joint in self.joint_names))
+        rows = np.stack(columns, -1)
+        for k, leader, multiplier, offset in self._mimics:
+            if self.joint_names[k] not in given:
+                rows[..., k] = multiplier * rows[..., leader] + offset
+        return rows
 
     def _open(self, pairs: ArrayLike) -> None:
         self._pairs = _indices(pairs, 2, "pairs")
@@ -267,9 +330,9 @@ class Robot:
         ends = np.cumsum([counts.asked, counts.adjacent, counts.touching]).tolist()
         return tuple(found[first:last].copy() for first, last in zip([0, *ends], ends))
 
-    def proximities(self, joints: ArrayLike, *, max_distance: float = 0, to: float = 0, max_depth: float = 0, work: int = 0) -> list[Proximity]:
+    def proximities(self, joints: Joints, *, max_distance: float = 0, to: float = 0, max_depth: float = 0, work: int = 0) -> list[Proximity]:
         """All pairs that are near in a configuration: nsvcd_proximities."""
-        row = _doubles(joints, (self.joint_count,), "joints")
+        row = _doubles(self._rows(joints, "joints"), (self.joint_count,), "joints")
         rows = (_Proximity * max(len(self._pairs), 1))()
         count = c_size_t()
         options = _filled(_ProximityOptions, max_distance=max_distance, to=to, max_depth=max_depth, work=work)
@@ -277,9 +340,9 @@ class Robot:
         return [Proximity(g.pair, _VERDICTS[g.verdict], _WHYS[g.why], Range(g.distance.low, g.distance.high), g.depth, _vector(g.contact.point),
                     _vector(g.contact.normal), np.array(g.slope[:self.joint_count])) for g in rows[:count.value]]
 
-    def nearest_free(self, joints: ArrayLike, *, clearance: float = 0, farthest: float = 0, seed: int = 0) -> Optional[Doubles]:
+    def nearest_free(self, joints: Joints, *, clearance: float = 0, farthest: float = 0, seed: int = 0) -> Optional[Doubles]:
         """A configuration near by that is proven free, or None: nsvcd_nearest_free."""
-        row = _doubles(joints, (self.joint_count,), "joints")
+        row = _doubles(self._rows(joints, "joints"), (self.joint_count,), "joints")
         out = np.empty(self.joint_count)
         is_found = c_int()
         options = _filled(_NearestFreeOptions, clearance=clearance, seed=seed)
@@ -287,7 +350,7 @@ class Robot:
         _check(_library.nsvcd_nearest_free(self._checker, _address(row), byref(options), _address(out), byref(is_found)))
         return out if is_found.value else None
 
-    def reach(self, start: ArrayLike, target: ArrayLike, link: int, tool: ArrayLike = _IDENTITY, *, target_link: int = 0,
+    def reach(self, start: Joints, target: ArrayLike, link: int, tool: ArrayLike = _IDENTITY, *, target_link: int = 0,
               half: ArrayLike = (0, 0, 0), free_axis: ArrayLike = (0, 0, 0), most: int = 16, position_tolerance: float = 0,
               angle_tolerance: float = 0, apart: float = 0, starts: int = 0, seed: int = 0, clearance: float = 0,
               may_touch: bool = False, held: Optional[ArrayLike] = None) -> Reached:
@@ -295,7 +358,7 @@ class Robot:
 
         held    (F) true: the joint stays where the start has it
         """
-        row = _doubles(start, (self.joint_count,), "start")
+        row = _doubles(self._rows(start, "start"), (self.joint_count,), "start")
         out = np.empty((most, self.joint_count))
         problem, answer = _ReachProblem(start=_address(row)), _ReachAnswer()
         problem.link, problem.target_link = _number(c_uint32, link, "link"), _number(c_uint32, target_link, "target_link")
@@ -312,22 +375,22 @@ class Robot:
                        np.array(answer.best[:self.joint_count]), answer.position_error, answer.angle_error,
                        _checked(answer.check) if touches else None)
 
-    def handed_over(self, joints: ArrayLike, part: int, link: int) -> Part:
+    def handed_over(self, joints: Joints, part: int, link: int) -> Part:
         """A part as another link would carry it from where it is, for a Robot to come: nsvcd_reparent."""
-        row = _doubles(joints, (self.joint_count,), "joints")
+        row = _doubles(self._rows(joints, "joints"), (self.joint_count,), "joints")
         out = _Part()
         _check(_library.nsvcd_reparent(self._checker, _address(row), _number(c_size_t, part, "part"),
                                         _number(c_uint32, link, "link"), byref(out)))
-        return Part(self._bodies[part], out.link, [*out.pose.position, *out.pose.rotation], out.scale)
+        return Part(self._bodies[part], out.link, [*out.pose.position, *out.pose.rotation], out.scale, self.part_names[part])
 
-    def forward_kinematics(self, joints: ArrayLike) -> Floats:
+    def forward_kinematics(self, joints: Joints) -> Floats:
         """Where the parts are: poses (B, 7)."""
-        row = _doubles(joints, (self.joint_count,), "joints")
+        row = _doubles(self._rows(joints, "joints"), (self.joint_count,), "joints")
         poses = np.empty((self.part_count, 7), np.float32)
         _library.nsvcd_forward_kinematics(self._checker, _address(row), _address(poses))
         return poses
 
-    def merge(self, motions: Sequence[Motion], rest: Optional[ArrayLike] = None) -> Motion:
+    def merge(self, motions: Sequence[Motion], rest: Optional[Joints] = None) -> Motion:
         """Motions of different joints, each on a clock of its own, as one of all joints: nsvcd_merge_motions.
 
         rest  (F) where joints are that none of them moves
@@ -341,7 +404,7 @@ class Robot:
             row.motion = _motion_of(motion.points, len(joints), motion.degree, motion.times, kept)
             row.joints, row.joint_count = _address(joints), len(joints)
             row.delay = motion.delay
-        resting = None if rest is None else _doubles(rest, (self.joint_count,), "rest")
+        resting = None if rest is None else _doubles(self._rows(rest, "rest"), (self.joint_count,), "rest")
         size = _library.nsvcd_merge_motions_size(rows, len(motions), self.joint_count)
         memory = _memory(size)
         merged = _JointMotion()
@@ -354,7 +417,7 @@ class Robot:
         return Motion(np.arange(self.joint_count), points.reshape(count, self.joint_count), merged.degree,
                       times if merged.pieces else None)
 
-    def check(self, points: ArrayLike, *, degree: int = 1, times: Optional[ArrayLike] = None, clearance: float = 0,
+    def check(self, points: Joints, *, degree: int = 1, times: Optional[ArrayLike] = None, clearance: float = 0,
               finest: float = 0, work: int = 0, to_time: float = 0) -> Checked:
         """Is a motion free, as the joints make it? nsvcd_check.
 
@@ -363,14 +426,14 @@ class Robot:
         to_time seconds: of what is not free, also seek until when it is, to this precision; 0: not sought
         """
         kept: list[Any] = []
-        motion = _motion_of(points, self.joint_count, degree, times, kept)
+        motion = _motion_of(self._rows(points, "points"), self.joint_count, degree, times, kept)
         options = _filled(_CheckOptions, clearance=clearance, finest=finest, work=work)
         options.to_time = to_time
         answer = _CheckAnswer()
         _check(_library.nsvcd_check(self._checker, byref(motion), byref(options), byref(answer)))
         return _checked(answer)
 
-    def route(self, start: ArrayLike, goals: ArrayLike, *, guess: Optional[ArrayLike] = None, clearance: float = 0,
+    def route(self, start: Joints, goals: Union[Joints, Sequence[Joints]], *, guess: Optional[Joints] = None, clearance: float = 0,
               seed: int = 0, nodes: int = 0, tries: int = 0, edge: float = 0, looks: int = 0, shortcuts: int = 0, smoothings: int = 0,
               stop: Optional[Callable[[], Any]] = None, held: Optional[ArrayLike] = None) -> Route:
         """A motion from the start (F) to a goal (F), or one of several (G, F), proven free: nsvcd_route.
@@ -381,11 +444,11 @@ class Robot:
         stop   asked before each proof and look; something true ends the search
         held   (F) true: the joint stays where the start has it, as the goals do
         """
-        rows = [_doubles(start, (self.joint_count,), "start"),
-                _doubles(np.atleast_2d(np.asarray(goals)), (None, self.joint_count), "goals")]
+        rows = [_doubles(self._rows(start, "start"), (self.joint_count,), "start"),
+                _doubles(np.atleast_2d(np.asarray(self._rows(goals, "goals"))), (None, self.joint_count), "goals")]
         problem = _RouteProblem(_address(rows[0]), _address(rows[1]), len(rows[1]))
         if guess is not None:
-            rows.append(_doubles(guess, (None, self.joint_count), "guess"))
+            rows.append(_doubles(self._rows(guess, "guess"), (None, self.joint_count), "guess"))
             problem.guess, problem.guess_count = _address(rows[2]), len(rows[2])
         stays = self._held(held)
         problem.held = None if stays is None else _address(stays)
