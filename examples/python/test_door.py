@@ -2,6 +2,8 @@
 from __future__ import annotations
 
 import copy
+import io
+import json
 import os
 import pickle
 import pydoc
@@ -10,13 +12,14 @@ import subprocess
 import sys
 import tempfile
 import unittest
+from contextlib import redirect_stdout
 from pathlib import Path
 
 import numpy as np
 
 import neuralsvcd as nsvcd
 import nsvcd_verify
-from neuralsvcd import Body, Code, Error, Mesh
+from neuralsvcd import Body, Code, Error, Mesh, motions, pictures
 
 HERE = Path(__file__).resolve().parent
 ASSETS = HERE.parent / "assets"
@@ -345,6 +348,106 @@ class Urdf(unittest.TestCase):
                 nsvcd.Robot.from_urdf(turning, velocity=1, fixed={"k": 0})
             with self.assertRaises(ValueError):
                 nsvcd.Robot.from_urdf(folder / "none.urdf")
+
+
+def matplotlib() -> bool:
+    """Is it there? It draws into memory."""
+    try:
+        import matplotlib
+    except ImportError:
+        return False
+    matplotlib.use("Agg")
+    return True
+
+
+class Pictures(unittest.TestCase):
+    def setUp(self) -> None:
+        if not matplotlib():
+            self.skipTest("no matplotlib: not tested")
+
+    def tearDown(self) -> None:
+        from matplotlib import pyplot
+        pyplot.close("all")
+
+    def sizes(self, axes) -> list[int]:
+        """What is drawn: triangles of each."""
+        axes.figure.savefig(io.BytesIO(), dpi=30)
+        return [len(collection.get_facecolor()) for collection in axes.collections]
+
+    def test_an_answer(self) -> None:
+        mug = Body(ASSETS / "mug.obj")
+        rack = Mesh.load(ASSETS / "dish_rack.obj")
+        path = [[0, -0.4, 0.3], [0, 0, 0]]
+        answer = nsvcd.sweep(mug, rack, path, ask="first", to_time=0.01)
+        axes = answer.plot(mug, rack, path)
+        triangles = mug.facts.triangles
+        self.assertEqual(self.sizes(axes)[:8], [triangles] * 7 + [len(rack.faces)])
+        self.assertEqual(axes.get_title(), f"hit at {answer.time.high:.3g}, by proof")
+        limits = np.array([axes.get_xlim(), axes.get_ylim(), axes.get_zlim()])
+        for body, pose in ((mug, path[0]), (mug, path[1]), (Body(rack), [0, 0, 0])):  # all is within
+            self.assertTrue((body.facts.low + np.array(pose) > limits[:, 0] - 1e-3).all())
+            self.assertTrue((body.facts.high + np.array(pose) < limits[:, 1] + 1e-3).all())
+        # what came from bytes is drawn as balls, what is round as that, and a scale is applied
+        bare, ball = Body.from_bytes(bytes(mug)), Body.sphere(0.1)
+        self.assertIsNone(bare.mesh)
+        answer = nsvcd.sweep(bare, ball, [1, 0, 0], scale_b=5)
+        axes = answer.plot(bare, ball, [1, 0, 0], scale_b=5)
+        self.assertEqual((axes.get_title(), len(self.sizes(axes))), ("free, by proof", 2))
+        self.assertAlmostEqual(axes.get_xlim()[0], -0.5, 2)
+        again = answer.plot(bare, ball, [1, 0, 0], axes=axes)
+        self.assertIs(again, axes)
+
+    def test_where_bodies_are(self) -> None:
+        """As the library has it, between poses."""
+        motion = motions._motion([[0, 0, 0, 0, 0, 0, 1], [1, 0, 0, 0, 0, 1, 0], [2, 1, 0, 0, 0.6, 0.8, 0]], [0, 0.3, 1])
+        box = Body.box([1, 0.01, 0.01])
+        answer = nsvcd.sweep(box, Body.box([0.1, 9, 9]), motion.poses, [1.6, 0, 0], times_a=motion.times, ask="first", to_time=1e-4)
+        self.assertTrue(0.01 < answer.safe.time < 0.99)
+        place = pictures._pose_at(motion, answer.safe.time)
+        np.testing.assert_allclose(place * np.sign(place[6] * answer.safe.a[6] + place[5] * answer.safe.a[5]), answer.safe.a, atol=1e-3)
+        np.testing.assert_allclose(pictures._placed(np.array([[[1, 0, 0], [0, 2, 0], [0, 0, 0]]], float), np.array([5, 0, 0, 0, 0, 1, 1]), 2),
+                                   [[[5, 2, 0], [1, 0, 0], [5, 0, 0]]], atol=1e-12)
+
+    def test_a_route(self) -> None:
+        arm = nsvcd.Robot.from_urdf(Urdf.FOLDER / "arm.urdf", srdf=Urdf.FOLDER / "arm.srdf", obstacles=Urdf.FOLDER / "shelf.urdf")
+        route = arm.route(Urdf.LOW, Urdf.UP)
+        axes = route.plot(arm, 4)
+        self.assertEqual(len(self.sizes(axes)), 8 * 4 + 1 + 7)  # the base does not move
+        self.assertRegex(axes.get_title(), r"^1\.\d+ s, ")
+        with self.assertRaisesRegex(ValueError, "no route"):
+            route._replace(points=None).plot(arm)
+
+    def test_without_matplotlib(self) -> None:
+        run = ("import sys; sys.modules['matplotlib'] = None; import neuralsvcd as n; ball = n.Body.sphere(1); "
+               "n.sweep(ball, n.Body.sphere(2)).plot(ball, ball)")
+        done = subprocess.run([sys.executable, "-B", "-c", run], cwd=HERE, capture_output=True, text=True)
+        self.assertRegex(done.stderr, "ImportError: plot needs matplotlib: pip install matplotlib")
+
+
+class Tour(unittest.TestCase):
+    def test_cells(self) -> None:
+        """The notebook's cells, one after the other, as they stand; it is kept without outputs."""
+        cells = json.loads((HERE / "tour.ipynb").read_text())["cells"]
+        codes = [cell for cell in cells if cell["cell_type"] == "code"]
+        self.assertTrue(all(cell["outputs"] == [] and cell["execution_count"] is None for cell in codes))
+        draws = matplotlib()
+        folder, printed, names = os.getcwd(), io.StringIO(), {}
+        os.chdir(HERE)
+        try:
+            with redirect_stdout(printed):
+                for cell in codes:
+                    lines = [line for line in cell["source"] if draws or ".plot(" not in line]
+                    exec("".join(lines), names)
+        finally:
+            os.chdir(folder)
+            if draws:
+                from matplotlib import pyplot
+                pyplot.close("all")
+        self.assertRegex(printed.getvalue(), "^" + "\n".join((
+            "hit: free before 0.59, in contact at 0.60", "free: 197.4 mm", "4880 of 10000 hit, the first at 0.6",
+            "straight: hit wrist_a board_2", r"route: FOUND, 1.\d s", r"asleep, at heights \[0.1 0.3 0.5 0.7 0.9\]",
+            r"free \d+ bytes; accepted: True")) + "\n$")
+        self.assertLess(names["seconds"], 10)
 
 
 class Types(unittest.TestCase):

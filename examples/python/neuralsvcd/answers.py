@@ -6,9 +6,12 @@ import ctypes
 import struct
 from typing import Any, NamedTuple, Optional
 
+from numpy.typing import ArrayLike
+
 from .words import By, _BYS, NO_TRIANGLE, Verdict, _VERDICTS, Why, _WHYS
 from ._structs import _Answer, _Contact
 from ._arrays import Pose, Vector
+from .bodies import BodyLike
 
 
 class Range(NamedTuple):
@@ -101,6 +104,17 @@ class Answer(NamedTuple):
 
     def __bool__(self) -> bool:
         return self.verdict is not Verdict.FREE
+
+    def plot(self, a: BodyLike, b: BodyLike, poses_a: Optional[ArrayLike] = None, poses_b: Optional[ArrayLike] = None, *,
+             times_a: Optional[ArrayLike] = None, times_b: Optional[ArrayLike] = None, scale_a: float = 1, scale_b: float = 1,
+             axes: Any = None) -> Any:
+        """Draws the question and the answer into axes of matplotlib, projection="3d"; None: into a new figure. The arguments
+        are those of sweep. a is blue, where it hits b, or at its end; what it passes through is pale; contacts are red.
+
+        Returns the axes: axes.figure.savefig("hit.png"). ImportError: there is no matplotlib.
+        """
+        from .pictures import _plot_answer
+        return _plot_answer(self, (a, b), (poses_a, poses_b), (times_a, times_b), (scale_a, scale_b), axes)
 
 
 def _leaves(kind: Any, offset: int = 0) -> list[tuple[int, str]]:

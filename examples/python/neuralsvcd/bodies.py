@@ -92,9 +92,10 @@ class Body:
     Encoding takes about a second for 100,000 triangles; what is asked about again is to be kept.
     """
 
-    __slots__ = ("_memory", "_address", "__weakref__")
+    __slots__ = ("_memory", "_address", "_mesh", "__weakref__")
     _memory: NDArray[np.uint8]
     _address: int
+    _mesh: Optional[Mesh]
 
     def __init__(self, mesh: Union[MeshLike, ArrayLike], faces: Optional[ArrayLike] = None, *, scale: float = 1,
                  origin: ArrayLike = (0, 0, 0), patches: int = 0, patch_radius: float = 0, convex_radius: float = 0,
@@ -111,7 +112,7 @@ class Body:
         if caught:
             raise caught[0]
         _check(code)
-        self._take(body)
+        self._take(body, Mesh(*c_mesh.kept))
 
     @classmethod
     def box(cls, extents: ArrayLike, convex_radius: float = 0) -> Body:
@@ -123,7 +124,7 @@ class Body:
         _check_of(_library.nsvcd_encode_box(_address(half), _number(c_float, convex_radius, "convex_radius"), None,
                                             byref(body)), {Code.RADIUS: "convex_radius"})
         self = cls.__new__(cls)
-        self._take(body)
+        self._take(body, Mesh.box(extents) if not convex_radius else None)
         return self
 
     @classmethod
@@ -151,7 +152,7 @@ class Body:
         """The convex hull of (n, 3) points, metres; as Mesh.hull."""
         return cls(Mesh.hull(points))
 
-    def _take(self, body: Any) -> None:
+    def _take(self, body: Any, mesh: Optional[Mesh]) -> None:
         """A copy of a body of the library's, which is given back."""
         try:
             size = _library.nsvcd_body_describe(body).size
@@ -159,9 +160,12 @@ class Body:
             ctypes.memmove(_address(memory), body, size)
         finally:
             _library.nsvcd_body_free(body, None)
-        self._keep(memory)
+        self._keep(memory, mesh)
 
-    def _keep(self, memory: NDArray[np.uint8]) -> None:
+    def _keep(self, memory: NDArray[np.uint8], mesh: Optional[Mesh] = None) -> None:
+        for array in mesh or ():
+            array.flags.writeable = False
+        self._mesh = mesh
         self._address = _address(memory)
         memory.flags.writeable = False
         self._memory = memory
@@ -205,8 +209,16 @@ class Body:
         factors = _floats(np.repeat(scale, 3) if np.ndim(scale) == 0 else scale, (3,), "scale")
         _check(_library.nsvcd_body_scale(self._address, _address(factors), _address(memory), len(memory), byref(scaled)))
         body = Body.__new__(Body)
-        body._keep(memory)
+        mesh = self._mesh
+        if mesh:
+            mesh = Mesh(mesh.vertices * factors, mesh.faces[:, ::-1] if np.prod(factors) < 0 else mesh.faces)
+        body._keep(memory, mesh)
         return body
+
+    @property
+    def mesh(self) -> Optional[Mesh]:
+        """What it was made of, as float32, to be drawn or certified; None: it came from bytes, or has rounded edges."""
+        return self._mesh
 
     @property
     def facts(self) -> Facts:

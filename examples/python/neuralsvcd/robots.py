@@ -22,7 +22,7 @@ from .errors import _check
 from ._arrays import (
     _address, _cancels, _doubles, Doubles, FilePath, _filled, Floats, _floats, _IDENTITY, _indices, _memory, _number,
     _vector, Vector)
-from .bodies import _body_of, BodyLike
+from .bodies import Body, _body_of, BodyLike
 from .motions import _pose_of
 from .answers import Range
 from .urdfs import _read_urdf
@@ -159,6 +159,14 @@ class Route(NamedTuple):
     checks: int
     proven: int
     looks: int
+
+    def plot(self, robot: Robot, count: int = 6, *, axes: Any = None) -> Any:
+        """Draws a robot at so many times of the route into axes of matplotlib, projection="3d"; None: into a new figure.
+
+        Returns the axes: axes.figure.savefig("route.png"). ImportError: there is no matplotlib.
+        """
+        from .pictures import _plot_route
+        return _plot_route(self, robot, count, axes)
 
     def at(self, times: ArrayLike) -> Doubles:
         """The joints at times (n), seconds: (n, F)."""
@@ -314,6 +322,9 @@ class Robot:
         if stays.shape != (self.joint_count,):
             raise ValueError(f"held: expected {self.joint_count} values")
         return stays
+
+    def _drawn(self) -> list[tuple[Body, float]]:
+        return [(body, part.scale or 1) for body, part in zip(self._bodies, self._parts)]
 
     @property
     def pairs(self) -> NDArray[np.uint32]:
