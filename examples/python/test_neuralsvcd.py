@@ -17,6 +17,7 @@ import sys
 import tempfile
 import threading
 import time
+import types
 import unittest
 import warnings
 import weakref
@@ -2022,18 +2023,25 @@ class Readme(unittest.TestCase):
         self.assertLessEqual(text.count("\n"), 60)
 
     def test_docstring(self) -> None:
-        """What the module's first lines print is when the mug meets the rack first: until shortly before it is free."""
+        """What the guide's first lines print is when the mug meets the rack first: until shortly before it is free. All of its
+        code runs, and all names are named."""
         example = "\n".join(re.findall(r"^    (.*)", nsvcd.__doc__, re.M))
         folder = os.getcwd()
         os.chdir(ASSETS)
         try:
             with redirect_stdout(io.StringIO()) as printed:
-                exec(example, {**vars(nsvcd), "mug": MUG, "path": LOW})
+                exec(example, names := {**vars(nsvcd), "np": np})
         finally:
             os.chdir(folder)
         before = float(printed.getvalue()) - 0.01
         until = np.add(LOW[0], before * np.subtract(LOW[1], LOW[0]))
         self.assertEqual(nsvcd.sweep(MUG, RACK, [LOW[0], until]).verdict, "free")
+        self.assertAlmostEqual(names["earliest"], 0.6, delta=0.1)
+        self.assertEqual(names["checked"].verdict, "free")
+        self.assertTrue(names["movers"].asleep.all())
+        listed = re.findall(r"\w+", nsvcd.__doc__[nsvcd.__doc__.index("\nNAMES\n"):])
+        public = [name for name, value in vars(nsvcd).items() if name[0] != "_" and not isinstance(value, types.ModuleType)]
+        self.assertEqual([name for name in public if name not in listed], [])
 
 
 class Wheel(unittest.TestCase):

@@ -89,7 +89,7 @@ class Body:
     progress      called now and then with what is done, in [0, 1]. If it returns something true, Error(CANCELLED);
                   what it raises ends the encoding
 
-    Encoding takes about a second for 100,000 triangles; what is asked about again is to be kept.
+    Encoding takes far longer than a question: what is asked about again is to be kept. The mesh is kept too, as `mesh`.
     """
 
     __slots__ = ("_memory", "_address", "_mesh", "__weakref__")
