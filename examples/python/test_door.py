@@ -82,6 +82,7 @@ class MeshLikes(unittest.TestCase):
             self.assertEqual(nsvcd.sweep(kind, kind, [[0.01, 0, 0, 0, 0, 0, 1]], None, scale_a=2).verdict, "hit")
             self.assertEqual(nsvcd.sweep([kind, rack], [rack, kind], [low, high])["verdict"].tolist(), ["hit", "free"])
             proof = nsvcd.certify(kind, ASSETS / "dish_rack.obj", high)
+            self.assertEqual(nsvcd.certify(Body(kind), rack, high), proof)
             self.assertEqual(proof.verdict, "free")
             if not isinstance(kind, (str, Path)):  # the checker reads no files
                 dish_rack = Mesh.load(ASSETS / "dish_rack.obj")
@@ -99,8 +100,11 @@ class MeshLikes(unittest.TestCase):
                              (b"v 0 0 0", "not bytes"), (self.mug.vertices, "not ndarray")):
             with self.assertRaisesRegex(TypeError, words):
                 nsvcd.sweep(wrong, self.mug)
-        with self.assertRaisesRegex(TypeError, "b: a Tree or a mesh is needed: a Body no longer"):
-            nsvcd.certify(self.mug, Body(self.mug))
+        for wrong in (Body.sphere(1), Body.from_bytes(bytes(Body(self.mug)))):
+            with self.assertRaisesRegex(TypeError, "b: a Body that came from bytes, or is round, has no mesh"):
+                nsvcd.certify(self.mug, wrong)
+        with self.assertRaisesRegex(TypeError, "b: a Tree or a mesh is needed: a mesh is a path"):
+            nsvcd.certify(self.mug, 1)
         with self.assertRaisesRegex(ValueError, r"^faces: an array \(n, 3\) is needed, not \(2, 4\)"):
             Body(self.mug.vertices, [[0, 1, 2, 3], [4, 5, 6, 7]])
 
@@ -457,6 +461,41 @@ class Types(unittest.TestCase):
         done = subprocess.run(["mypy", "--strict", "--cache-dir", os.devnull, "neuralsvcd", "nsvcd_verify"], cwd=HERE,
                               capture_output=True, text=True)
         self.assertEqual((done.returncode, done.stderr), (0, ""), done.stdout)
+
+    def test_of_those_who_call(self) -> None:
+        """What a caller writes is found to be right, and what is wrong is found; so far as the oldest Python knows."""
+        if not shutil.which("mypy"):
+            self.skipTest("no mypy: not tested")
+        right = """
+            from typing import Any
+            import numpy as np
+            import neuralsvcd as nsvcd
+            vertices, faces = np.zeros((3, 3)), np.array([[0, 1, 2]])
+            mug = nsvcd.Body("mug.obj", latents=True)
+            other = nsvcd.Body(vertices, faces)
+            path = np.zeros((2, 7))
+            answer = nsvcd.sweep(mug, (vertices, faces), path, [[0, 0, 1]], ask=nsvcd.Ask.FIRST, clearance=0.01)
+            when: float = answer.time.high
+            proof: nsvcd.Certificate = nsvcd.certify(mug, "rack.obj", path, answer=answer)
+            answers: Any = nsvcd.sweep([mug, other], mug, np.zeros((2, 5, 7)), threads=2)
+            count: int = (answers.verdict == "hit").sum()
+            arm = nsvcd.Robot.from_urdf("arm.urdf", fixed={"gripper": 0.1})
+            checked = arm.check({"elbow": [0, 1]})
+            names: tuple[str, str] = arm.pair_names(checked.pair or 0)
+            route = arm.route({"elbow": 0}, [[1.0], [2.0]])
+            world = nsvcd.World(9)
+            if world.sweep(world.add(nsvcd.Mesh.box((1, 1, 1)), [0, 0, 1])).body is None: world.list(mug, nsvcd.poses(path))
+        """
+        wrong = ("nsvcd.sweep(mug, mug, path, ask=1)", "nsvcd.sweep(mug, mug, path, clearence=1)", "nsvcd.Body.sphere('1')",
+                 "nsvcd.sweep(1, mug)", "arm.route()", "answer.verdikt", "proof.time.high")
+        lines = [line.strip() for line in right.strip().splitlines()]
+        with tempfile.TemporaryDirectory() as folder:
+            file = Path(folder) / "caller.py"
+            file.write_text("\n".join([*lines, *wrong, ""]))
+            done = subprocess.run(["mypy", "--strict", "--python-version", "3.9", "--cache-dir", os.devnull, file], capture_output=True,
+                                  text=True, env={**os.environ, "MYPYPATH": str(HERE)})
+        found = {int(line.split(":")[1]) for line in done.stdout.splitlines() if ": error: " in line}
+        self.assertEqual(found, set(range(len(lines) + 1, len(lines) + 1 + len(wrong))), done.stdout)
 
 
 if __name__ == "__main__":

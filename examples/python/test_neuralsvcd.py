@@ -1907,7 +1907,7 @@ class Certificates(unittest.TestCase):
                 nsvcd.certify(box, box, path, **named)
             with self.assertRaises(TypeError):
                 nsvcd_verify.verify(b"", checked, checked, path, **named)
-        for a, b in ((BOX, box), (box, None), (1, box)):
+        for a, b in ((Body.sphere(1), box), (box, None), (1, box)):
             with self.assertRaises(TypeError):
                 nsvcd.certify(a, b)
         for a, b in ((checked, box), (None, checked), (checked, (CUBE, FACES, CUBE))):

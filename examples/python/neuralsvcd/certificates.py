@@ -39,17 +39,20 @@ class Tree:
         return Tree, self._mesh.kept
 
 
-TreeLike = Union[Tree, MeshLike]
+TreeLike = Union[Tree, Body, MeshLike]
 
 
 def _tree_of(given: Any, name: str) -> Tree:
     if isinstance(given, Tree):
         return given
+    if isinstance(given, Body):
+        if given.mesh is None or given.facts.convex_radius:
+            raise TypeError(f"{name}: a Body that came from bytes, or is round, has no mesh to prove something of")
+        return Tree(given.mesh)
     try:
         return Tree(given)
     except TypeError as error:
-        hint = ": a Body no longer is one" if isinstance(given, Body) else f": {error}"
-        raise TypeError(f"{name}: a Tree or a mesh is needed{hint}") from None
+        raise TypeError(f"{name}: a Tree or a mesh is needed: {error}") from None
 
 
 class Certificate(NamedTuple):
@@ -75,7 +78,7 @@ def certify(a: TreeLike, b: TreeLike, poses_a: Optional[ArrayLike] = None, poses
             scale_b: float = 1, clearance: float = 0, answer: Optional[Answer] = None, visits: int = 0) -> Certificate:
     """Do two meshes hit each other? Poses, times and scales as sweep has them; what is answered is proven to others.
 
-    a, b       each a Tree, or what stands for a mesh: a path, (vertices, faces), or what has these
+    a, b       each a Tree, a Body that was made of a mesh, or what stands for a mesh; whoever checks needs body.mesh
     clearance  metres: to come as near as this is a hit
     answer     of sweep, where a hit is looked for first; it is not believed
     visits     steps that may be taken; 1000000

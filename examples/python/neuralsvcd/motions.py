@@ -19,7 +19,8 @@ _ORDERS = ("xyzw", "wxyz")
 def poses(given: ArrayLike, order: str = "xyzw", *, to: str = "xyzw") -> Doubles:
     """Poses (..., 7), as all functions here take and return them: x y z in metres, unit quaternion x y z w.
 
-    given  (..., 7), (..., 3) positions without a rotation, or (..., 4, 4) rigid matrices, which take points as columns
+    given  (..., 7), (..., 3) positions without a rotation, or (..., 4, 4) rigid matrices, which take points as columns:
+           of pinocchio, [M.homogeneous for M in placements]
     order  of the quaternions given: "xyzw" is that of scipy, pinocchio, ROS and PyBullet; "wxyz" that of MuJoCo and Eigen's
            constructor: sweep(a, b, poses(qpos, order="wxyz"))
     to     of those returned: poses(answer.safe.a, to="wxyz")
