@@ -114,8 +114,8 @@ from .movers import Movers as Movers, Step as Step, WorldContact as WorldContact
 from .plans import (
     Plan as Plan, Progress as Progress, Stage as Stage, plan as plan, spline as spline)
 from .robots import (
-    Checked as Checked, Joint as Joint, Joints as Joints, Motion as Motion, Part as Part, Proximity as Proximity, Reached as Reached,
-    Robot as Robot, Route as Route)
+    Checked as Checked, Joint as Joint, Joints as Joints, Motion as Motion, Part as Part, Proximity as Proximity,
+    Reached as Reached, Robot as Robot, Route as Route)
 from .sweeps import (
     Gradient as Gradient, contacts as contacts, sweep as sweep, sweep_gradient as sweep_gradient)
 from .words import (

@@ -65,8 +65,8 @@ _PlanOptions = _struct(
     discrete=c_int, check=c_size_t, sweep=_Question)
 _PlanAnswer = _struct(
     "nsvcd_plan_answer", status=c_int, collides=c_int, joint=c_size_t, pair=c_size_t, logit=c_float, time=c_float,
-    deviation=c_float, cost=c_float, smoothness=c_float, via_points=c_size_t, seeds=c_size_t, iterations=c_size_t, trajectories=c_size_t,
-    sweeps=c_size_t)
+    deviation=c_float, cost=c_float, smoothness=c_float, via_points=c_size_t, seeds=c_size_t,
+    iterations=c_size_t, trajectories=c_size_t, sweeps=c_size_t)
 _STOP = ctypes.CFUNCTYPE(c_int, c_void_p)
 _Joint = _struct("nsvcd_joint", kind=c_int, parent=c_uint32, origin=_Pose, axis=c_float * 3, low=c_double,
                  high=c_double, speed=c_double, acceleration=c_double, mimic=c_uint32, multiplier=c_double, offset=c_double)
@@ -92,8 +92,8 @@ _PairCounts = _struct("nsvcd_pair_counts", asked=c_size_t, adjacent=c_size_t, to
 _ReachProblem = _struct(
     "nsvcd_reach_problem", start=c_void_p, link=c_uint32, tool=_Pose, target_link=c_uint32, target=_Pose, half=c_float * 3,
     free_axis=c_float * 3, stop=_STOP, user=c_void_p, held=c_void_p)
-_ReachOptions = _struct("nsvcd_reach_options", position_tolerance=c_double, angle_tolerance=c_double, apart=c_double, starts=c_size_t,
-                        seed=c_uint64, clearance=c_float, may_touch=c_int)
+_ReachOptions = _struct("nsvcd_reach_options", position_tolerance=c_double, angle_tolerance=c_double, apart=c_double,
+                        starts=c_size_t, seed=c_uint64, clearance=c_float, may_touch=c_int)
 _ReachAnswer = _struct(
     "nsvcd_reach_answer", solutions=c_size_t, starts=c_size_t, reached=c_size_t, touching=c_size_t, best=c_double * _MAX_JOINTS,
     position_error=c_double, angle_error=c_double, check=_CheckAnswer)
@@ -130,7 +130,7 @@ _StepOptions = _struct("nsvcd_step_options", gravity=c_float * 3, quiet=c_float,
 _StepAnswer = _struct("nsvcd_step_answer", awake=c_size_t, asleep=c_size_t, caught=c_size_t, contacts=c_size_t, questions=c_size_t,
                       work=c_size_t, refused=c_size_t)
 _Mass = _struct("nsvcd_mass", volume=c_float, centre=c_float * 3, inertia=c_float * 3, is_of_box=c_int)
-_STRUCTS = (_WorldMover, _StepOptions, _StepAnswer, _Mass, _WorldBody, _WorldContact, _WorldQuestion, _WorldAnswer, _SlideOptions, _Velocity, _SlideAnswer, _CertifyOptions, _Certificate, _Joint, _Part, _Scene, _Allowance, _Cone, _JointMotion, _PartialMotion, _CheckOptions, _CheckAnswer, _Proximity, _ProximityOptions, _NearestFreeOptions,
-            _PairCounts, _ReachProblem, _ReachOptions, _ReachAnswer, _RouteProblem, _RouteOptions, _RouteAnswer, _Mesh, _EncodeOptions, _BodyFacts, _Pose, _NetworkOptions, _Mover, _Question, _Range, _Contact,
-            _SafePlace, _Opinion, _Answer, _BodyPair, _PlanProgress, _PlanProblem, _PlanStage, _PlanOptions, _PlanAnswer)
+# All above: what _library.py compares with the header.
+_STRUCTS: list[Any] = [
+    kind for kind in globals().values() if isinstance(kind, type) and issubclass(kind, ctypes.Structure)]
 _Layout = _struct("neuralsvcd_layout", name=c_char_p, place=c_size_t, size=c_size_t)

@@ -84,7 +84,8 @@ def certify(a: TreeLike, b: TreeLike, poses_a: Optional[ArrayLike] = None, poses
     visits     steps that may be taken; 1000000
     """
     trees = _tree_of(a, "a"), _tree_of(b, "b")
-    question = _question((None, None), _motions(poses_a, poses_b, times_a, times_b), scale_a, scale_b, _question_of(clearance=clearance))
+    question = _question((None, None), _motions(poses_a, poses_b, times_a, times_b), scale_a, scale_b,
+                         _question_of(clearance=clearance))
     options = _filled(_CertifyOptions, visits=visits)
     if answer is not None:
         named = answer.nearest

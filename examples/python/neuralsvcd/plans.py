@@ -165,7 +165,8 @@ def plan(bodies: Sequence[Optional[BodyLike]], pairs: ArrayLike, kinematics: Cal
         progress=_PLAN_PROGRESS(lambda user, address: _cancels(tell, caught, address, user)))
     if jacobian:
         derive = jacobian
-        problem.jacobian = _PLACE(lambda _, given, out: call(derive, "jacobian", lambda rows, _: rows, given, out, len(kept), 6, joints))
+        problem.jacobian = _PLACE(lambda _, given, out: call(
+            derive, "jacobian", lambda rows, _: rows, given, out, len(kept), 6, joints))
     options = _filled(_PlanOptions, seed=seed, seeds=seeds, velocity=velocity, acceleration=acceleration, jerk=jerk,
                       collision=collision, duration=duration, margin=margin, discrete=bool(discrete), check=check)
     options.explore, options.refine = (_filled(_PlanStage, **stage._asdict()) for stage in (explore, refine))

@@ -250,7 +250,8 @@ class Robot:
             _Allowance(_number(c_size_t, pair, "allowances"), _address(near), metres)
             for (pair, _, metres), near in zip(allowances, self._near)))
         self._cones = (_Cone * max(len(cones), 1))(*(
-            _Cone(_number(c_uint32, part, "cones"), *((c_float * 3)(*_floats(x, (3,), "cones").tolist()) for x in (axis, direction)), angle)
+            _Cone(_number(c_uint32, part, "cones"),
+                  *((c_float * 3)(*_floats(x, (3,), "cones").tolist()) for x in (axis, direction)), angle)
             for part, axis, direction, angle in cones))
         self._cone_count = len(cones)
         self._open(np.empty((0, 2), np.uint32) if pairs is None else pairs)
@@ -341,15 +342,17 @@ class Robot:
         ends = np.cumsum([counts.asked, counts.adjacent, counts.touching]).tolist()
         return tuple(found[first:last].copy() for first, last in zip([0, *ends], ends))
 
-    def proximities(self, joints: Joints, *, max_distance: float = 0, to: float = 0, max_depth: float = 0, work: int = 0) -> list[Proximity]:
+    def proximities(self, joints: Joints, *, max_distance: float = 0, to: float = 0, max_depth: float = 0,
+                    work: int = 0) -> list[Proximity]:
         """All pairs that are near in a configuration: nsvcd_proximities."""
         row = _doubles(self._rows(joints, "joints"), (self.joint_count,), "joints")
         rows = (_Proximity * max(len(self._pairs), 1))()
         count = c_size_t()
         options = _filled(_ProximityOptions, max_distance=max_distance, to=to, max_depth=max_depth, work=work)
         _check(_library.nsvcd_proximities(self._checker, _address(row), byref(options), rows, len(self._pairs), byref(count)))
-        return [Proximity(g.pair, _VERDICTS[g.verdict], _WHYS[g.why], Range(g.distance.low, g.distance.high), g.depth, _vector(g.contact.point),
-                    _vector(g.contact.normal), np.array(g.slope[:self.joint_count])) for g in rows[:count.value]]
+        return [Proximity(g.pair, _VERDICTS[g.verdict], _WHYS[g.why], Range(g.distance.low, g.distance.high), g.depth,
+                          _vector(g.contact.point), _vector(g.contact.normal), np.array(g.slope[:self.joint_count]))
+                for g in rows[:count.value]]
 
     def nearest_free(self, joints: Joints, *, clearance: float = 0, farthest: float = 0, seed: int = 0) -> Optional[Doubles]:
         """A configuration near by that is proven free, or None: nsvcd_nearest_free."""
@@ -445,8 +448,8 @@ class Robot:
         return _checked(answer)
 
     def route(self, start: Joints, goals: Union[Joints, Sequence[Joints]], *, guess: Optional[Joints] = None, clearance: float = 0,
-              seed: int = 0, nodes: int = 0, tries: int = 0, edge: float = 0, looks: int = 0, shortcuts: int = 0, smoothings: int = 0,
-              stop: Optional[Callable[[], Any]] = None, held: Optional[ArrayLike] = None) -> Route:
+              seed: int = 0, nodes: int = 0, tries: int = 0, edge: float = 0, looks: int = 0, shortcuts: int = 0,
+              smoothings: int = 0, stop: Optional[Callable[[], Any]] = None, held: Optional[ArrayLike] = None) -> Route:
         """A motion from the start (F) to a goal (F), or one of several (G, F), proven free: nsvcd_route.
 
         guess  (n, F) a way that may be free, its ends left out

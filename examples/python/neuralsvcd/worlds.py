@@ -222,8 +222,8 @@ class World:
         return rows
 
     def drive(self, id: int, to: ArrayLike) -> None:
-        """Drives a body in this frame to a pose, by a line and a slerp about its pivot: a lift, a door, a robot's link. It stops for
-        nobody: others that slide get out of its way, or are caught."""
+        """Drives a body in this frame to a pose, by a line and a slerp about its pivot: a lift, a door, a robot's link. It
+        stops for nobody: others that slide get out of its way, or are caught."""
         with self._door.changes():
             code = _library.nsvcd_world_drive(self._world, _id_of(id), byref(_pose_of(to, "to")))
             _check_of(code, {Code.INDEX: "id", Code.POSE: "to", Code.QUATERNION: "to"})
@@ -259,7 +259,8 @@ class World:
              scale: float = 1, pivot: ArrayLike = (0, 0, 0), groups: int = 0, passes: int = 0, ignore: int = 0,
              clearance: float = 0, slop: float = 0, tolerance: float = 0, surfaces: bool = False, work: int = 0,
              segments: int = 0) -> tuple[int, ...]:
-        """The ids of all bodies that a mover meets on its way, sensors too; what is undecided counts. Arguments are those of `sweep`."""
+        """The ids of all bodies that a mover meets on its way, sensors too; what is undecided counts. Arguments are those of
+        `sweep`."""
         question = _world_question(mover, poses, times, scale, pivot, groups, passes, ignore, _asked(
             "hit", 0, 0, clearance, slop, tolerance, False, surfaces, Method.DEFAULT, work, segments))
         count = c_size_t()
@@ -321,7 +322,8 @@ class World:
             contacts = _world_contacts(answer, v[14])
         return Slide(v[0:7], speed, v[7], bool(v[8]), v[9] or None, v[10:13], v[13] or None, contacts, v[15], v[16])
 
-    def step(self, movers: Movers, seconds: float, *, gravity: ArrayLike = (0, 0, -9.81), quiet: float = 0, calm: float = 0) -> Step:
+    def step(self, movers: Movers, seconds: float, *, gravity: ArrayLike = (0, 0, -9.81), quiet: float = 0,
+             calm: float = 0) -> Step:
         """Moves bodies for a frame, and ends it: each is given gravity and slides, what it hits gets its part of the momentum, who is
         quiet for long enough falls asleep, and what is driven arrives: nsvcd_world_step. No two bodies overlap, if none did.
 
@@ -364,8 +366,8 @@ def _id_of(id: Any) -> Any:
     return _number(c_size_t, id, "id")
 
 
-def _world_question(mover: Union[int, BodyLike], poses: Optional[ArrayLike], times: Optional[ArrayLike], scale: float, pivot: ArrayLike,
-                    groups: int, passes: int, ignore: int, asked_of_it: Any) -> Any:
+def _world_question(mover: Union[int, BodyLike], poses: Optional[ArrayLike], times: Optional[ArrayLike], scale: float,
+                    pivot: ArrayLike, groups: int, passes: int, ignore: int, asked_of_it: Any) -> Any:
     asked = _filled(_WorldQuestion, groups=groups, passes=passes, self=ignore)
     motion = _motion(poses, times, one=True)
     asked.question = asked_of_it
