@@ -305,6 +305,16 @@ class Urdf(unittest.TestCase):
         self.assertEqual(self.arm.route(low, [low, up]).goal, 0)
         np.testing.assert_array_equal(self.arm.forward_kinematics(up), self.arm.forward_kinematics(self.UP))
         self.assertEqual(len(self.arm.proximities(low, max_distance=0.1)), len(self.arm.proximities(self.LOW, max_distance=0.1)))
+        there = self.arm.reach(self.UP, self.arm.forward_kinematics(up)[6], "palm", most=3, held=["pan"])
+        again = self.arm.reach(self.UP, self.arm.forward_kinematics(up)[6], 6, most=3, held=[True] + [False] * 5)
+        np.testing.assert_array_equal(there.solutions, again.solutions)
+        self.assertGreater(len(there.solutions), 0)
+        np.testing.assert_array_equal(there.solutions[:, 0], self.UP[0])
+        taken = self.arm.handed_over(up, "board_1", "wrist_3")
+        self.assertEqual((taken.link, taken.name), (6, "board_1"))
+        for call in (lambda: self.arm.reach(self.UP, [0, 0, 0], "hand"), lambda: self.arm.handed_over(up, "cup", "palm"),
+                     lambda: self.arm.route(low, up, held=["hand"])):
+            self.assertRaisesRegex(ValueError, "hand|cup", call)
         for wrong, words in (({**low, "wrist": 0}, "^points: no joint wrist$"), ({"lift": 0, "palm": 1}, "no joint palm, pan is missing"),
                              ({}, "pan is missing, lift is missing")):
             with self.assertRaisesRegex(ValueError, words):

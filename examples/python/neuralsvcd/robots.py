@@ -143,9 +143,14 @@ class Reached(NamedTuple):
 
 
 class Route(NamedTuple):
-    """nsvcd_route_answer.
+    """nsvcd_route_answer. route.at(times) are its joints, route.plot(robot) draws it.
 
-    points, times  (2 pieces + 1, F) and (pieces + 1): pieces of degree 2; None unless FOUND
+    status         FOUND; LIMIT, STOPPED: it was given up; START, GOAL: that is not free, and `check` says why
+    goal           the index of the one that is reached, or None
+    points, times  (2 pieces + 1, F) and (pieces + 1) seconds: Bezier pieces of degree 2, for `Robot.check`; None unless FOUND
+    stops          times in between at which it rests
+    duration, unhindered  seconds that it takes, and that the straight line would take if nothing were in its way
+    nodes, checks, proven, looks  what it took
     """
     status: RouteStatus
     goal: Optional[int]
@@ -319,10 +324,22 @@ class Robot:
     def _held(self, held: Optional[ArrayLike]) -> Optional[NDArray[np.bool_]]:
         if held is None:
             return None
+        if isinstance(held, (list, tuple, set)) and all(isinstance(name, str) for name in held):
+            if unknown := [name for name in held if name not in self.joint_names]:
+                raise ValueError(f"held: no joint {', '.join(map(str, unknown))}")
+            held = [name in held for name in self.joint_names]
         stays = np.array(held, dtype=np.bool_)
         if stays.shape != (self.joint_count,):
             raise ValueError(f"held: expected {self.joint_count} values")
         return stays
+
+    def _link(self, link: Union[int, str], name: str) -> Any:
+        if isinstance(link, str):
+            if link not in self.part_names + self.joint_names:
+                raise ValueError(f"{name}: no part and no joint {link}")
+            is_part = link in self.part_names
+            link = self._parts[self.part_names.index(link)].link if is_part else self.joint_names.index(link) + 1
+        return _number(c_uint32, link, name)
 
     def _drawn(self) -> list[tuple[Body, float]]:
         return [(body, part.scale or 1) for body, part in zip(self._bodies, self._parts)]
@@ -333,7 +350,8 @@ class Robot:
         return self._pairs.copy()
 
     def find_pairs(self, draws: int = 0, seed: int = 0) -> tuple[NDArray[np.uint32], ...]:
-        """Pairs (n, 2) that can meet, that one joint separates, and that touch in all draws: nsvcd_find_pairs."""
+        """Three arrays (n, 2) of pairs: that can meet, that one joint separates, and that touch in all of so many draws of the
+        joints, 0: 64: nsvcd_find_pairs."""
         most = self.part_count * self.part_count
         found = np.empty((max(most, 1), 2), np.uint32)
         counts = _PairCounts()
@@ -344,7 +362,14 @@ class Robot:
 
     def proximities(self, joints: Joints, *, max_distance: float = 0, to: float = 0, max_depth: float = 0,
                     work: int = 0) -> list[Proximity]:
-        """All pairs that are near in a configuration: nsvcd_proximities."""
+        """All pairs that are near in a configuration (F), in the order of `pairs`: nsvcd_proximities.
+
+        max_distance  metres: how near counts; 0: 0.05
+        to            metres: how wide a bracket of a distance may be; 0: 20 um
+        max_depth     metres: depths up to this are found; 0: 20 mm
+        work          units of each question; 0: 100000
+        Error: VALUE (not finite), MIMIC (a joint is not where what it mimics has it), POSE, SCALE.
+        """
         row = _doubles(self._rows(joints, "joints"), (self.joint_count,), "joints")
         rows = (_Proximity * max(len(self._pairs), 1))()
         count = c_size_t()
@@ -355,7 +380,12 @@ class Robot:
                 for g in rows[:count.value]]
 
     def nearest_free(self, joints: Joints, *, clearance: float = 0, farthest: float = 0, seed: int = 0) -> Optional[Doubles]:
-        """A configuration near by that is proven free, or None: nsvcd_nearest_free."""
+        """A configuration (F) near by that is proven free, or None: nsvcd_nearest_free. What lies in between need not be free.
+
+        clearance  metres that the parts of a pair keep
+        farthest   how far it may be, Euclidean, radians and metres alike; 0: 0.5
+        Error: VALUE, MIMIC, CLEARANCE, FARTHEST, POSE, SCALE.
+        """
         row = _doubles(self._rows(joints, "joints"), (self.joint_count,), "joints")
         out = np.empty(self.joint_count)
         is_found = c_int()
@@ -364,18 +394,32 @@ class Robot:
         _check(_library.nsvcd_nearest_free(self._checker, _address(row), byref(options), _address(out), byref(is_found)))
         return out if is_found.value else None
 
-    def reach(self, start: Joints, target: ArrayLike, link: int, tool: ArrayLike = _IDENTITY, *, target_link: int = 0,
+    def reach(self, start: Joints, target: ArrayLike, link: Union[int, str], tool: ArrayLike = _IDENTITY, *,
+              target_link: Union[int, str] = 0,
               half: ArrayLike = (0, 0, 0), free_axis: ArrayLike = (0, 0, 0), most: int = 16, position_tolerance: float = 0,
               angle_tolerance: float = 0, apart: float = 0, starts: int = 0, seed: int = 0, clearance: float = 0,
               may_touch: bool = False, held: Optional[ArrayLike] = None) -> Reached:
         """Configurations, at most `most`, that have a tool, a pose on a link, at a target: nsvcd_reach.
 
-        held    (F) true: the joint stays where the start has it
+        start       (F) where the search begins, and what solutions are near to
+        target      a pose, (7), (3) or (4, 4), on target_link; 0: in the world
+        link        its number, or the name of a part or a joint that it goes with
+        tool        a pose in that link's frame
+        half        (3) metres: the tool's origin may be in a box about the target's, along its axes; half of its sides
+        free_axis   (3) of the tool: it may turn about this
+        position_tolerance, angle_tolerance  metres, radians: how far it may be off; 0: 1e-6
+        apart       solutions are at least so far apart, radians and metres alike; 0: 0.1
+        starts      of the search, at most; 0: 200
+        clearance   metres that the parts of a pair keep
+        may_touch   solutions need not be free
+        held        joints that stay where the start has them: (F) of bool, or their names
+        Error: VALUE, MIMIC, LINK (or no joint moves the tool against the target), RADIUS (half), AXIS (free_axis), TOLERANCE,
+        DISTANCE (apart), CLEARANCE, COUNT (most), POSE, QUATERNION, SCALE.
         """
         row = _doubles(self._rows(start, "start"), (self.joint_count,), "start")
         out = np.empty((most, self.joint_count))
         problem, answer = _ReachProblem(start=_address(row)), _ReachAnswer()
-        problem.link, problem.target_link = _number(c_uint32, link, "link"), _number(c_uint32, target_link, "target_link")
+        problem.link, problem.target_link = self._link(link, "link"), self._link(target_link, "target_link")
         problem.tool, problem.target = _pose_of(tool, "tool"), _pose_of(target, "target")
         problem.half[:] = _floats(half, (3,), "half").tolist()
         problem.free_axis[:] = _floats(free_axis, (3,), "free_axis").tolist()
@@ -389,16 +433,24 @@ class Robot:
                        np.array(answer.best[:self.joint_count]), answer.position_error, answer.angle_error,
                        _checked(answer.check) if touches else None)
 
-    def handed_over(self, joints: Joints, part: int, link: int) -> Part:
-        """A part as another link would carry it from where it is, for a Robot to come: nsvcd_reparent."""
+    def handed_over(self, joints: Joints, part: Union[int, str], link: Union[int, str]) -> Part:
+        """A part as another link would carry it from where it is in a configuration (F), for a Robot to come: nsvcd_reparent.
+
+        part, link  numbers, or the name of a part, and of a part or a joint that the link goes with
+        Error: LINK, VALUE, MIMIC, POSE.
+        """
         row = _doubles(self._rows(joints, "joints"), (self.joint_count,), "joints")
         out = _Part()
+        if isinstance(part, str):
+            if part not in self.part_names:
+                raise ValueError(f"part: no part {part}")
+            part = self.part_names.index(part)
         _check(_library.nsvcd_reparent(self._checker, _address(row), _number(c_size_t, part, "part"),
-                                        _number(c_uint32, link, "link"), byref(out)))
+                                        self._link(link, "link"), byref(out)))
         return Part(self._bodies[part], out.link, [*out.pose.position, *out.pose.rotation], out.scale, self.part_names[part])
 
     def forward_kinematics(self, joints: Joints) -> Floats:
-        """Where the parts are: poses (B, 7)."""
+        """Where the parts are in a configuration (F): poses (B, 7)."""
         row = _doubles(self._rows(joints, "joints"), (self.joint_count,), "joints")
         poses = np.empty((self.part_count, 7), np.float32)
         _library.nsvcd_forward_kinematics(self._checker, _address(row), _address(poses))
@@ -433,11 +485,15 @@ class Robot:
 
     def check(self, points: Joints, *, degree: int = 1, times: Optional[ArrayLike] = None, clearance: float = 0,
               finest: float = 0, work: int = 0, to_time: float = 0) -> Checked:
-        """Is a motion free, as the joints make it? nsvcd_check.
+        """Is a motion free, as the joints make it, at all times? nsvcd_check.
 
-        points  (F): a configuration; (pieces degree + 1, F): Bezier pieces, a polyline if the degree is 1
-        times   (pieces + 1), seconds; None: each piece takes one
-        to_time seconds: of what is not free, also seek until when it is, to this precision; 0: not sought
+        points     (F): a configuration; (pieces degree + 1, F): Bezier pieces, a polyline if the degree is 1
+        times      (pieces + 1), seconds; None: each piece takes one
+        clearance  metres: parts that come as near as this are a hit
+        finest     metres: steps are not cut further if links deviate by less; 0: 10 um
+        work       units of each proof of a pair; 0: 100000
+        to_time    seconds: of what is not free, also seek until when it is, to this precision; 0: not sought
+        Error: VALUE, DEGREE, TIMES, MIMIC, CLEARANCE, FINEST, TO (to_time), POSE, SCALE.
         """
         kept: list[Any] = []
         motion = _motion_of(self._rows(points, "points"), self.joint_count, degree, times, kept)
@@ -452,11 +508,18 @@ class Robot:
               smoothings: int = 0, stop: Optional[Callable[[], Any]] = None, held: Optional[ArrayLike] = None) -> Route:
         """A motion from the start (F) to a goal (F), or one of several (G, F), proven free: nsvcd_route.
 
-        guess  (n, F) a way that may be free, its ends left out
-        tries  motions asked about in search of a way, at most; 0: 4 times the nodes
-        looks  motions looked at before that, at most, if all that moves has balls; LEAVE_OUT: none
-        stop   asked before each proof and look; something true ends the search
-        held   (F) true: the joint stays where the start has it, as the goals do
+        guess      (n, F) a way that may be free, its ends left out
+        clearance  metres that the parts of a pair keep
+        seed       others find other routes
+        nodes      of both trees, at most; 0: 20000
+        tries      motions asked about in search of a way, at most; 0: 4 times the nodes
+        edge       radians or metres of an edge, at most; 0: 1
+        looks      motions looked at before that, at most, if all that moves has balls; 0: 200000; LEAVE_OUT: none
+        shortcuts, smoothings  tries to shorten and to smooth; 0: 20 and 200; LEAVE_OUT: none
+        stop       asked before each proof and look; something true ends the search
+        held       joints that stay where the start has them, as the goals do: (F) of bool, or their names
+        Error: VALUE, MIMIC, HELD, CLEARANCE, ROUTE (nodes, shortcuts, edge), COUNT, POSE, SCALE. That there is no route is a
+        RouteStatus.
         """
         rows = [_doubles(self._rows(start, "start"), (self.joint_count,), "start"),
                 _doubles(np.atleast_2d(np.asarray(self._rows(goals, "goals"))), (None, self.joint_count), "goals")]
