@@ -408,6 +408,9 @@ class Pictures(unittest.TestCase):
         axes = answer.plot(bare, ball, [1, 0, 0], scale_b=5)
         self.assertEqual((axes.get_title(), len(self.sizes(axes))), ("free, by proof", 2))
         self.assertAlmostEqual(axes.get_xlim()[0], -0.5, 2)
+        network = Body(ASSETS / "mug.obj", no_triangles=True)
+        undecided = nsvcd.sweep(mug, Body(rack), [[0.05, -0.4, 0.2], [0.05, 0, 0.1]], work=1)
+        self.assertEqual(undecided.plot(network, rack, path).get_title(), "undecided, by proof")
         again = answer.plot(bare, ball, [1, 0, 0], axes=axes)
         self.assertIs(again, axes)
 

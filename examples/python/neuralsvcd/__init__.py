@@ -89,7 +89,7 @@ THREADS
   whoever changes it wait. sweep(..., threads=2) shares many motions among threads of its own.
 
 COSTS
-  A question takes some microseconds, of which Python's part is 8; in one call with many, half a microsecond
+  A question takes some microseconds, of which Python's part is 8 to 10; in one call with many, half a microsecond
   (examples/python/overhead.py). Encoding takes far longer: what is asked about again is to be a Body.
 
 NAMES

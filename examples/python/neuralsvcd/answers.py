@@ -109,7 +109,7 @@ class Answer(NamedTuple):
              times_a: Optional[ArrayLike] = None, times_b: Optional[ArrayLike] = None, scale_a: float = 1, scale_b: float = 1,
              axes: Any = None) -> Any:
         """Draws the question and the answer into axes of matplotlib, projection="3d"; None: into a new figure. The arguments
-        are those of sweep. a is blue, where it hits b, or at its end; what it passes through is pale; contacts are red.
+        are those of sweep. a is blue, where it hits b, or as far as it is free; what it passes through is pale; contacts are red.
 
         Returns the axes: axes.figure.savefig("hit.png"). ImportError: there is no matplotlib.
         """

@@ -5,7 +5,6 @@ from __future__ import annotations
 import operator
 import os
 import threading
-from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
 from typing import Any, NamedTuple, Optional, Union
 
@@ -17,7 +16,7 @@ from ._structs import _Answer, _Question
 from ._library import _library
 from .errors import _check_question
 from ._arrays import _address, Floats, _floats, _memory
-from .bodies import Body, _body_of, BodyLike
+from .bodies import Body, _body_of
 from .meshes import Mesh
 from .motions import _Motion
 
@@ -81,9 +80,6 @@ def _worded(c: NDArray[Any]) -> NDArray[Any]:
     for name, words in _WORDS.items():
         answers[name] = words[c[name]]
     return answers.view(np.recarray)
-
-
-Bodies = Union[BodyLike, Sequence[BodyLike]]
 
 
 def _are_many(bodies: Any) -> bool:

@@ -9,6 +9,7 @@ from typing import Any, Optional
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from .words import Verdict
 from ._arrays import Doubles
 from .bodies import Body, _body_of
 from .meshes import Mesh
@@ -100,7 +101,8 @@ _BLUE, _GREY, _RED = (0.25, 0.5, 0.85), (0.62, 0.62, 0.62), (0.85, 0.1, 0.1)
 def _plot_answer(answer: Any, bodies: Sequence[Any], poses: Sequence[Optional[ArrayLike]], times: Sequence[Optional[ArrayLike]],
                  scales: Sequence[float], axes: Any) -> Any:
     axes = _axes_for(axes)
-    at = answer.time.high if answer else 1.0
+    is_hit = answer.verdict is Verdict.HIT
+    at = answer.time.high if is_hit else answer.time.low
     drawn: list[Doubles] = []
     for side, body, colour in zip((0, 1), bodies, (_BLUE, _GREY)):
         motion = _motion(poses[side], times[side], ("_a", "_b")[side], one=True)
@@ -119,15 +121,15 @@ def _plot_answer(answer: Any, bodies: Sequence[Any], poses: Sequence[Optional[Ar
     for contact in answer.contacts:
         axes.scatter(*contact.point, color=_RED, s=40, zorder=5)
         axes.quiver(*contact.point, *contact.normal, length=size, color=_RED, zorder=5)
-    when = f" at {answer.time.high:.3g}" if answer else ""
+    when = f" at {at:.3g}" if is_hit else ""
     axes.set_title(f"{answer.verdict}{when}, by {answer.by}")
     return axes
 
 
 def _plot_route(route: Any, robot: Any, count: int, axes: Any) -> Any:
-    axes = _axes_for(axes)
     if route.points is None:
         raise ValueError("no route was found")
+    axes = _axes_for(axes)
     times = np.linspace(0, route.duration, count)
     places = np.array([robot.forward_kinematics(joints) for joints in route.at(times)])
     drawn: list[Doubles] = []

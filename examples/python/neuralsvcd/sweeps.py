@@ -17,7 +17,7 @@ from .errors import _check_question
 from ._arrays import _address, _filled, Floats, _memory
 from .bodies import Body, _body_of, BodyLike
 from .motions import _Motion, _motion
-from .batches import _are_many, Bodies, _sweep_many, _workspace
+from .batches import _are_many, _sweep_many, _workspace
 from .answers import Answer, _answer_of, Contact, _CONTACT, _contact_of
 
 
@@ -83,7 +83,8 @@ def _two_bodies(a: Any, b: Any) -> tuple[Body, Body]:
     return first, first if b is a else _body_of(b, "b")
 
 
-def sweep(a: Bodies, b: Bodies, poses_a: Optional[ArrayLike] = None, poses_b: Optional[ArrayLike] = None, *,
+def sweep(a: Union[BodyLike, Sequence[BodyLike]], b: Union[BodyLike, Sequence[BodyLike]],
+          poses_a: Optional[ArrayLike] = None, poses_b: Optional[ArrayLike] = None, *,
           times_a: Optional[ArrayLike] = None, times_b: Optional[ArrayLike] = None, scale_a: ArrayLike = 1,
           scale_b: ArrayLike = 1,
           ask: str = "hit", to: float = 0, to_time: float = 0, clearance: float = 0, slop: float = 0,
