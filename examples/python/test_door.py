@@ -105,6 +105,10 @@ class MeshLikes(unittest.TestCase):
                 nsvcd.certify(self.mug, wrong)
         with self.assertRaisesRegex(TypeError, "b: a Tree or a mesh is needed: a mesh is a path"):
             nsvcd.certify(self.mug, 1)
+        with tempfile.TemporaryDirectory() as folder:
+            Body(self.mug).save(Path(folder) / "mug.body")
+            with self.assertRaisesRegex(ValueError, "mug.body: an encoded body, no mesh: Body.load"):
+                nsvcd.sweep(Path(folder) / "mug.body", self.mug)
         with self.assertRaisesRegex(ValueError, r"^faces: an array \(n, 3\) is needed, not \(2, 4\)"):
             Body(self.mug.vertices, [[0, 1, 2, 3], [4, 5, 6, 7]])
 

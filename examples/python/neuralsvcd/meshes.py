@@ -76,6 +76,8 @@ class Mesh(NamedTuple):
         """
         placed = _placed(scale, origin)
         given = data.encode() if isinstance(data, str) else memoryview(data).tobytes()
+        if given[:4] == b"NSVB":
+            raise ValueError(f"{name}: an encoded body, no mesh: Body.load or Body.from_bytes reads it")
         mesh, form, line = _Mesh(), c_char_p(), c_size_t()
         why = _library.neuralsvcd_mesh_parse(os.fsencode(name).replace(b"\0", b""), given, len(given), _address(placed),
                                              byref(mesh), byref(form), byref(line))
