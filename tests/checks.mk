@@ -116,6 +116,8 @@ check-web: build/svcd build/verify
 check-python:
 	@for python in $(PYTHON) /usr/bin/python3; do \
 	  $$python -c 'import numpy' 2>/dev/null || continue; \
+	  command -v mypy >/dev/null || echo "check-python: no mypy: types not tested"; \
+	  $$python -c 'import matplotlib' 2>/dev/null || echo "check-python: no matplotlib: pictures not tested"; \
 	  $(MAKE) build/svcd build/_neuralsvcd.so build/_nsvcd_verify.so && cd examples/python && exec $$python -B -m unittest; exit 1; \
 	done; echo "check-python: no python3 with numpy: not tested"
 # The examples for Windows, where MinGW is there (Debian: gcc-mingw-w64-x86-64).

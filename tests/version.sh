@@ -39,7 +39,7 @@ for tag in $(git tag --points-at HEAD 'v*' 2>/dev/null); do
   ! grep -q "^## $version.*unreleased" CHANGELOG.md || fail "the tag is $tag, and CHANGELOG says unreleased"
 done
 for file in neuralsvcd.h weights.h examples/svcd.c examples/quickstart.c examples/plan.c examples/verify/*.[ch] \
-  examples/python/_*.c examples/python/*/__init__.py packages/project/main.c; do
+  examples/python/_*.c examples/python/*/*.py packages/project/main.c; do
   head -2 "$file" | grep -qE '^(//|#) SPDX-License-Identifier: MIT$' || fail "no SPDX line in $file"
 done
 echo "version: $version everywhere; SPDX lines"

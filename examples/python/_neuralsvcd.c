@@ -15,7 +15,6 @@
 
 // The functions as the module calls them. If the header says otherwise, this does not compile.
 const char *nsvcd_result_string(nsvcd_result);
-nsvcd_result nsvcd_obj_parse(const char *, size_t, const nsvcd_allocator *, nsvcd_mesh *, size_t *);
 nsvcd_result nsvcd_mesh_cut(const nsvcd_mesh *, const float[3], const float[3],
                             const nsvcd_allocator *, nsvcd_mesh *);
 nsvcd_result nsvcd_mesh_hull(const float *, size_t, const nsvcd_allocator *, nsvcd_mesh *);
@@ -24,6 +23,7 @@ nsvcd_result nsvcd_mesh_of_heights(const float *, size_t, size_t, const float[2]
 void nsvcd_mesh_free(nsvcd_mesh *, const nsvcd_allocator *);
 nsvcd_result nsvcd_encode(const nsvcd_mesh *, const nsvcd_encode_options *, const nsvcd_allocator *,
                           void *, size_t, const nsvcd_body **);
+nsvcd_result nsvcd_encode_box(const float[3], float, const nsvcd_allocator *, const nsvcd_body **);
 void nsvcd_body_free(const nsvcd_body *, const nsvcd_allocator *);
 nsvcd_result nsvcd_body_load(const void *, size_t, const nsvcd_body **);
 nsvcd_result nsvcd_body_scale(const nsvcd_body *, const float[3], void *, size_t,
@@ -41,7 +41,6 @@ void nsvcd_spline(const float *, size_t, size_t, float, size_t, float *);
 size_t nsvcd_plan_workspace_size(const nsvcd_plan_problem *, const nsvcd_plan_options *);
 nsvcd_result nsvcd_plan(const nsvcd_plan_problem *, const nsvcd_plan_options *, void *, size_t,
                         float *, nsvcd_plan_answer *);
-nsvcd_result nsvcd_stl_parse(const void *, size_t, const nsvcd_allocator *, nsvcd_mesh *, size_t *);
 size_t nsvcd_checker_size(const nsvcd_scene *);
 nsvcd_result nsvcd_checker_open(const nsvcd_scene *, void *, size_t, nsvcd_checker **);
 void nsvcd_forward_kinematics(const nsvcd_checker *, const double *, nsvcd_pose *);
@@ -101,6 +100,12 @@ const char *neuralsvcd_mesh_parse(const char *name, const void *data, size_t siz
   *format = fault.format;
   *line = fault.line;
   return fault.reason;
+}
+
+extern const char *neuralsvcd_version(void);
+
+const char *neuralsvcd_version(void) {
+  return NSVCD_VERSION;
 }
 
 // A struct is at 0, a field at its offset; a constant has its value for the place, and no size.

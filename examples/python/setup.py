@@ -5,10 +5,12 @@ import shutil
 from pathlib import Path
 
 from setuptools import Extension, setup
+from setuptools.command.build_py import build_py
 from setuptools.command.sdist import sdist
 
 # What is compiled lies outside of this folder, in the repository; an sdist has it as it lies there, in a folder of its own.
-NEEDED = ["LICENSE", "neuralsvcd.h", "weights.h", "extras/*.h", "examples/verify/*.h", "examples/scenery/*.h"]
+NEEDED = ["LICENSE", "neuralsvcd.h", "weights.h", "extras/*.h", "examples/verify/*.h", "examples/scenery/*.h",
+          "examples/robot/urdf.py"]
 OWN = Path("repository")
 REPOSITORY = OWN if OWN.exists() else Path("../..")
 
@@ -20,6 +22,13 @@ class SourceDistribution(sdist):
             copy = Path(base_dir, OWN, file.relative_to(REPOSITORY))
             copy.parent.mkdir(parents=True, exist_ok=True)
             shutil.copy(file, copy)
+
+
+class PythonBuild(build_py):
+    def run(self):
+        super().run()
+        if not getattr(self, "editable_mode", False):
+            shutil.copy(REPOSITORY / "examples/robot/urdf.py", Path(self.build_lib, "neuralsvcd", "_urdf.py"))
 
 
 os.environ.setdefault("CFLAGS", "-O3 -g0")
@@ -39,7 +48,7 @@ setup(
     ext_modules=[Extension(f"{name}._{name}", [f"_{name}.c"], include_dirs=[str(REPOSITORY)], libraries=["m"],
                            py_limited_api=True) for name in ("neuralsvcd", "nsvcd_verify")],
     data_files=[("share/doc/neuralsvcd", [str(REPOSITORY / "LICENSE")])],
-    cmdclass={"sdist": SourceDistribution},
+    cmdclass={"sdist": SourceDistribution, "build_py": PythonBuild},
     # force: setuptools would not see that the header or CFLAGS have changed.
     options={"build_ext": {"force": True}, "bdist_wheel": {"py_limited_api": "cp39"}},
 )

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Checks certificates that bodies never meet, or that they do: examples/verify for Python, by ctypes.
 
-    report = verify(certificate, Mesh(vertices, triangles), rack, path)   # as given to neuralsvcd.certify
+    report = verify(certificate, (vertices, faces), rack, path)   # as given to neuralsvcd.certify
     if report.kind == "free": ...
 
 Nothing here is shared with the module neuralsvcd or with neuralsvcd.h, which make certificates. Poses, times and scales are as
@@ -34,8 +34,12 @@ class Kind(str, enum.Enum):
     HIT = "hit"
     NEAR = "near"
     INSIDE = "inside"
-    __str__ = str.__str__
-    __format__ = str.__format__
+
+    def __str__(self) -> str:
+        return str.__str__(self)
+
+    def __format__(self, form: str) -> str:
+        return str.__format__(self, form)
 
 
 _KINDS = tuple(Kind)  # from 1
@@ -96,12 +100,21 @@ def _check(reason: Optional[bytes], where: str = "") -> None:
 class Mesh:
     """A mesh, prepared once. It does not change; it can be pickled and copied.
 
-    vertices   (n, 3) metres
-    triangles  (m, 3) integers, counter-clockwise seen from outside
+    mesh   (vertices, faces), (n, 3) metres and (m, 3) integers, counter-clockwise seen from outside; or what has these,
+           like a trimesh.Trimesh or a neuralsvcd.Mesh
+    faces  where vertices are given before: Mesh(vertices, faces)
     """
 
-    def __init__(self, vertices: ArrayLike, triangles: ArrayLike) -> None:
-        self._kept = _array(vertices, (3,), "vertices"), _array(triangles, (3,), "triangles", np.uint32)
+    def __init__(self, mesh: Any, faces: Optional[ArrayLike] = None) -> None:
+        if faces is not None:
+            vertices = mesh
+        elif hasattr(mesh, "vertices") and hasattr(mesh, "faces"):
+            vertices, faces = mesh.vertices, mesh.faces
+        elif isinstance(mesh, (tuple, list)) and len(mesh) == 2:
+            vertices, faces = mesh
+        else:
+            raise TypeError(f"a mesh is (vertices, faces), or what has these, not {type(mesh).__name__}")
+        self._kept = _array(vertices, (3,), "vertices"), _array(faces, (3,), "faces", np.uint32)
         counts = tuple(map(len, self._kept))
         self._memory = _memory(_library.verifier_mesh_size(*counts))
         _check(_library.verifier_mesh_init(_address(self._kept[0]), counts[0], _address(self._kept[1]), counts[1],
@@ -133,12 +146,15 @@ class Report(NamedTuple):
         return self.kind is Kind.FREE
 
 
-def _mover(mesh: Mesh, poses: Optional[ArrayLike], times: Optional[ArrayLike], scale: float,
-           side: str) -> tuple[NDArray[np.uint64], ...]:
+def _mover(given: Any, poses: Optional[ArrayLike], times: Optional[ArrayLike], scale: float,
+           side: str) -> tuple[NDArray[Any], ...]:
     """A mover of C's, and what it points to."""
-    if not isinstance(mesh, Mesh):
-        raise TypeError(f"{side}: a Mesh is needed, not {type(mesh).__name__}")
-    kept_poses = _array([[0, 0, 0, 0, 0, 0, 1]] if poses is None else poses, (7,), f"poses_{side}")
+    try:
+        mesh = given if isinstance(given, Mesh) else Mesh(given)
+    except TypeError as error:
+        raise TypeError(f"{side}: {error}") from None
+    rows = [[0, 0, 0, 0, 0, 0, 1]] if poses is None else np.atleast_2d(np.asarray(poses))
+    kept_poses = _array(rows, (7,), f"poses_{side}")
     kept_times = _array(np.empty(0) if times is None else times, (), f"times_{side}")
     if times is not None and len(kept_times) != len(kept_poses):
         raise ValueError(f"times_{side}: {len(kept_times)} of {len(kept_poses)} poses")
@@ -146,14 +162,15 @@ def _mover(mesh: Mesh, poses: Optional[ArrayLike], times: Optional[ArrayLike], s
     _check(_library.verifier_mover_init(_address(mesh._memory), c_float(scale), _address(kept_poses),
                                         None if times is None else _address(kept_times), len(kept_poses),
                                         _address(out)), f"{side}: ")
-    return out, kept_poses, kept_times
+    return out, kept_poses, kept_times, mesh._memory
 
 
-def verify(certificate: Any, a: Mesh, b: Mesh, poses_a: Optional[ArrayLike] = None,
+def verify(certificate: Any, a: Any, b: Any, poses_a: Optional[ArrayLike] = None,
            poses_b: Optional[ArrayLike] = None, *, times_a: Optional[ArrayLike] = None,
            times_b: Optional[ArrayLike] = None, scale_a: float = 1, scale_b: float = 1, clearance: float = 0) -> Report:
     """Does a certificate, bytes or another buffer, prove something of two meshes that move?
 
+    a, b              each a Mesh, or what one is made of
     poses_a, poses_b  (k, 7) x y z in metres, unit quaternion x y z w; k may differ; one pose: it rests there; None: it
                       rests at the origin
     times_a, times_b  (k) when a mesh is at each pose, from 0 to 1, rising; None: uniform
@@ -172,7 +189,7 @@ def verify(certificate: Any, a: Mesh, b: Mesh, poses_a: Optional[ArrayLike] = No
     return Report(True, "", int(position), _KINDS[int(kind) - 1], time, int(named_a), int(named_b))
 
 
-def claim(a: Mesh, b: Mesh, poses_a: Optional[ArrayLike] = None, poses_b: Optional[ArrayLike] = None, *,
+def claim(a: Any, b: Any, poses_a: Optional[ArrayLike] = None, poses_b: Optional[ArrayLike] = None, *,
           times_a: Optional[ArrayLike] = None, times_b: Optional[ArrayLike] = None, scale_a: float = 1,
           scale_b: float = 1, clearance: float = 0) -> bytes:
     """The name of what a certificate is about, for a log of proofs: the SHA-256 of meshes, motions, scales and the

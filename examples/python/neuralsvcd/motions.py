@@ -1,0 +1,117 @@
+# SPDX-License-Identifier: MIT
+"""Poses and motions: (k, 7), positions, or rigid matrices."""
+from __future__ import annotations
+
+import math
+from ctypes import c_float
+from typing import Any, NamedTuple, Optional
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ._structs import _Pose
+from ._arrays import Doubles, _floats, Floats
+
+
+_ORDERS = ("xyzw", "wxyz")
+
+
+def poses(given: ArrayLike, order: str = "xyzw", *, to: str = "xyzw") -> Doubles:
+    """Poses (..., 7), as all functions here take and return them: x y z in metres, unit quaternion x y z w.
+
+    given  (..., 7), (..., 3) positions without a rotation, or (..., 4, 4) rigid matrices, which take points as columns:
+           of pinocchio, [M.homogeneous for M in placements]
+    order  of the quaternions given: "xyzw" is that of scipy, pinocchio, ROS and PyBullet; "wxyz" that of MuJoCo and Eigen's
+           constructor: sweep(a, b, poses(qpos, order="wxyz"))
+    to     of those returned: poses(answer.safe.a, to="wxyz")
+
+    ValueError where a matrix is not rigid to 1e-4, and for other shapes. Quaternions are not normalized.
+    """
+    for name, word in (("order", order), ("to", to)):
+        if word not in _ORDERS:
+            raise ValueError(f"{name}: {word!r} is none of {', '.join(_ORDERS)}")
+    rows = np.array(_rows(given, "poses"), np.float64)
+    if order != "xyzw" and np.shape(given)[-1:] == (7,):
+        rows = rows[..., [0, 1, 2, 4, 5, 6, 3]]
+    return rows if to == "xyzw" else rows[..., [0, 1, 2, 6, 3, 4, 5]]
+
+
+def _rows(poses: Any, name: str) -> NDArray[Any]:
+    """Poses (..., 7), also where they are given as positions or as matrices."""
+    given = np.asarray(poses)
+    if given.dtype.kind not in "fiu":
+        raise TypeError(f"{name}: an array of numbers is needed, not of {given.dtype}")
+    shape = given.shape
+    if shape[-1:] == (7,):
+        return given
+    if shape[-2:] == (4, 4):
+        return _of_matrices(given, name)
+    if shape[-1:] == (3,):
+        if shape[-2:] == (3, 3) and np.allclose(given @ np.swapaxes(given, -1, -2), np.eye(3), atol=1e-4):
+            raise ValueError(f"{name}: {shape}: a rotation matrix, or three positions? Give a rotation as a 4x4 matrix, "
+                             "positions as poses (3, 7)")
+        rows = np.zeros((*shape[:-1], 7), given.dtype if given.dtype.kind == "f" else np.float64)
+        rows[..., :3], rows[..., 6] = given, 1
+        return rows
+    hint = {(3, 4): "a 3x4 matrix lacks its row 0 0 0 1", (6,): "6 numbers are a twist, or Euler angles: a pose has a quaternion",
+            (4,): "a quaternion alone lacks its position"}
+    why = next((text for end, text in hint.items() if shape[-len(end):] == end), "")
+    raise ValueError(f"{name}: (..., 7), (..., 3) or (..., 4, 4) is needed, not {shape}" + (f": {why}" if why else ""))
+
+
+def _of_matrices(given: NDArray[Any], name: str) -> Doubles:
+    m = given.astype(np.float64)
+    if not np.isfinite(m).all() or (np.abs(m[..., 3, :] - [0, 0, 0, 1]) > 1e-4).any():
+        raise ValueError(f"{name}: not finite, or a last row that is not 0 0 0 1: are points rows here? transpose it")
+    r = m[..., :3, :3]
+    metric = np.swapaxes(r, -1, -2) @ r
+    square = np.trace(metric, axis1=-2, axis2=-1) / 3  # of the scale
+    even = np.abs(metric - square[..., None, None] * np.eye(3)).max((-2, -1)) <= 2e-4 * square
+    if not even.all() or (np.linalg.det(r) <= 0).any():
+        raise ValueError(f"{name}: a matrix that shears, mirrors or stretches: it must be rigid")
+    if (np.abs(square - 1) > 2e-4).any():  # of lengths, to 1e-4
+        worst = math.sqrt(square.flat[np.abs(square - 1).argmax()])
+        raise ValueError(f"{name}: a matrix that scales, by {worst:.6g}: give the scale as scale_a, scale_b or to the body")
+    # The products of a quaternion's numbers, times 4: its row with the largest square is that quaternion, scaled.
+    products = np.empty((*m.shape[:-2], 4, 4))
+    products[..., :3, :3] = r + np.swapaxes(r, -1, -2)
+    trace = np.trace(r, axis1=-2, axis2=-1)
+    for i, (j, k) in enumerate(((1, 2), (2, 0), (0, 1))):
+        products[..., i, i] = 1 + 2 * r[..., i, i] - trace
+        products[..., i, 3] = products[..., 3, i] = r[..., k, j] - r[..., j, k]
+    products[..., 3, 3] = 1 + trace
+    largest = np.diagonal(products, axis1=-2, axis2=-1).argmax(-1)
+    rotation = np.take_along_axis(products, largest[..., None, None], -2)[..., 0, :]
+    return np.concatenate([m[..., :3, 3], rotation / np.linalg.norm(rotation, axis=-1, keepdims=True)], -1)
+
+
+class _Motion(NamedTuple):
+    """(k, 7), and (k) or None; of many motions (n, k, 7) or (n, k). poses None: at rest at the origin."""
+    poses: Optional[Floats]
+    times: Optional[Floats]
+
+    def are_many(self) -> bool:
+        return self.poses is not None and (self.poses.ndim > 2 or self.times is not None and self.times.ndim > 1)
+
+
+def _motion(poses: Optional[ArrayLike], times: Optional[ArrayLike], suffix: str = "", *, one: bool = False) -> _Motion:
+    """suffix: of the names of both. one: there are not to be many."""
+    if poses is None:
+        if times is not None:
+            raise ValueError(f"times{suffix}: there are no poses")
+        return _Motion(None, None)
+    rows = _rows(poses, f"poses{suffix}")
+    kept = np.array(rows if rows.ndim > 1 else rows[None], np.float32, order="C")
+    if kept.ndim > (2 if one else 3):
+        raise ValueError(f"poses{suffix}: {'one motion (k, 7) is' if one else 'at most (n, k, 7) are'} needed, not {rows.shape}")
+    if not kept.shape[-2]:
+        raise ValueError(f"poses{suffix}: no pose; None is at rest at the origin")
+    if times is None:
+        return _Motion(kept, None)
+    each = () if one or np.ndim(times) == 1 else (None,)
+    return _Motion(kept, _floats(times, (*each, kept.shape[-2]), f"times{suffix}"))
+
+
+def _pose_of(pose: ArrayLike, name: str) -> Any:
+    row = _floats(_rows(pose, name), (7,), name).tolist()
+    return _Pose((c_float * 3)(*row[:3]), (c_float * 4)(*row[3:]))
