@@ -11,9 +11,11 @@ build/formal/%.vo: formal/%.v
 build/formal/Answers.vo: build/formal/Statement.vo
 build/formal/Geometry.vo: build/formal/Answers.vo
 build/formal/Inside.vo: build/formal/Geometry.vo
-build/formal/Winding.vo build/formal/Checker.vo build/formal/Box.vo: build/formal/Inside.vo
+build/formal/Winding.vo build/formal/Checker.vo build/formal/Winding.vo build/formal/Box.vo: build/formal/Inside.vo
 build/formal/Meeting.vo: build/formal/Checker.vo
-build/formal/Main.vo: build/formal/Meeting.vo
+build/formal/Closed.vo: build/formal/Meeting.vo build/formal/Winding.vo
+build/formal/Rays.vo: build/formal/Closed.vo
+build/formal/Main.vo: build/formal/Rays.vo
 build/formal/Scenes.vo: build/formal/Main.vo
 
 build/formal/checker.ml: formal/Extract.v build/formal/Main.vo

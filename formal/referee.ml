@@ -64,7 +64,23 @@ let fold_8 digest = let d = digest lxor (digest lsr 16) in (d lxor (d lsr 8)) la
 
 (* ---- meshes *)
 
-type mesh = { name : string; digest : int; unit_ : int; triangles : ztri list }
+type mesh = { name : string; digest : int; unit_ : int; triangles : ztri list; ways_in : zv list option; corner_of : int -> zv option }
+
+(* Hints, which the checker does not believe: where rays begin, a corner of each component, in the order of the components' lowest
+   vertices. None: where a vertex of no triangle is at the place of another, it may be what stands for that *)
+let hints points faces =
+  let part = Array.init (Array.length points) (fun v -> v) and used = Array.make (Array.length points) false in
+  let rec root v = if part.(v) = v then v else (part.(v) <- part.(part.(v)); root part.(v)) in
+  let unite v w = let v = root v and w = root w in part.(max v w) <- min v w in
+  List.iter (fun (a, b, c) -> unite a b; unite b c; List.iter (fun v -> used.(v) <- true) [a; b; c]) faces;
+  let places = Hashtbl.create 1000 and clear = ref true in
+  let key p = List.map Big_int_Z.string_of_big_int [p.zx; p.zy; p.zz] in
+  Array.iteri (fun v p -> match Hashtbl.find_opt places (key p) with
+    | None -> Hashtbl.add places (key p) v
+    | Some w -> if used.(v) <> used.(w) then clear := false; if used.(v) && used.(w) then unite v w) points;
+  let starts = List.filter (fun v -> used.(v) && root v = v) (List.init (Array.length points) (fun v -> v)) in
+  ((if !clear then Some (List.map (fun v -> points.(v)) starts) else None),
+   fun v -> if v < Array.length points && used.(v) then Some points.(v) else None)
 
 let read_mesh name path =
   if Filename.check_suffix (String.lowercase_ascii path) ".stl" then raise (Uncovered "STL");
@@ -89,7 +105,9 @@ let read_mesh name path =
   let unit_ = List.fold_left (fun k x -> max k (snd (dyadic x))) 0 all in
   let exact x = let n, k = dyadic x in shifted n (unit_ - k) in
   let point k = match List.map exact vertices.(k) with [x; y; w] -> { zx = x; zy = y; zz = w } | _ -> assert false in
-  { name; unit_; triangles = List.map (fun (a, b, c) -> { za = point a; zb = point b; zc = point c }) faces;
+  let points = Array.init (Array.length vertices) point in
+  let ways_in, corner_of = hints points faces in
+  { name; unit_; ways_in; corner_of; triangles = List.map (fun (a, b, c) -> { za = points.(a); zb = points.(b); zc = points.(c) }) faces;
     digest = hash (hash !count (List.map word all)) (List.concat_map (fun (a, b, c) -> [a; b; c]) faces) }
 
 (* ---- motions *)
@@ -134,7 +152,9 @@ let text_of = function
   | OpensTriangles -> "it opens triangles" | Follows -> "something follows its end" | Unfit -> "a motion is unfit"
   | NotFree -> "it is no certificate of version 1" | NoTriangle -> "it names a triangle that there is not"
   | NotNear -> "two points are not as near as that" | NoEdge -> "it names an edge that there is not"
-  | NotPierced -> "an edge does not pass through a triangle"
+  | NotPierced -> "an edge does not pass through a triangle" | TooNear -> "a ray passes too near to an edge"
+  | NotOutside -> "a ray does not show that a component is outside" | NoCorner -> "it names a corner that there is not"
+  | NotInside -> "a ray does not show that a corner is inside"
 
 type side = { mesh : mesh; scale : real; poses : real list list }
 
@@ -146,6 +166,12 @@ let kept make = let table = Hashtbl.create 16 in fun s b ->
   | None -> let tree = make b in Hashtbl.add table key tree; tree
 let kept_double = kept tree_double
 let kept_Z = kept tree_Z
+let surfaces = Hashtbl.create 16
+let surface_kept mesh = match Hashtbl.find_opt surfaces mesh.name with
+  | Some surface -> surface
+  | None ->
+    let surface = Option.bind mesh.ways_in (surface_of mesh.triangles) in
+    Hashtbl.add surfaces mesh.name surface; surface
 
 let judge exact clearance a b bytes =
   let size = String.length bytes in
@@ -156,21 +182,30 @@ let judge exact clearance a b bytes =
   else if at 1 <> fold_8 a.mesh.digest then refused "it is about another mesh a" 5
   else if at 2 <> fold_8 b.mesh.digest then refused "it is about another mesh b" 5
   else if 256 * at 3 + at 4 <> fold_16 motion then refused "it is about another motion, scale or clearance" 5
-  else match at 0 land 3 with
-  | 3 -> ("uncovered", "inside")
-  | kind ->
+  else
+    let kind = at 0 land 3 in
     let ba = body a.mesh a.scale a.poses and bb = body b.mesh b.scale b.poses in
     let scene = { body_a = ba; body_b = bb; clearance = rational clearance } in
     let list = List.init size (fun k -> z (at k)) in
     let refused_at why rest = refused (text_of why) ((8 * size - List.length rest) / 8) in
-    if kind <> 0 then match if exact then meeting_Z scene list else meeting_double scene list with
+    let sides = surface_kept a.mesh, surface_kept b.mesh in
+    let unclear = a.mesh.ways_in = None || b.mesh.ways_in = None in
+    if kind = 0 then match let fa, fb = sides in
+        if exact then free_Z scene (kept_Z a ba) (kept_Z b bb) fa fb list
+        else free_double scene (kept_double a ba) (kept_double b bb) fa fb list with
+      | Yes () -> ("accepted", "free")
+      | No (Unfit, _) when unclear -> ("uncovered", "vertices of no triangle at corners")
+      | No (why, rest) -> refused_at why rest
+    else if kind = 3 then match let fa, fb = sides in
+        let corner of_b n = (if of_b then b else a).mesh.corner_of (Big_int_Z.int_of_big_int n) in
+        if exact then inside_Z scene (kept_Z a ba) (kept_Z b bb) fa fb corner list
+        else inside_double scene (kept_double a ba) (kept_double b bb) fa fb corner list with
+      | Yes _ -> ("accepted", "inside")
+      | No (Unfit, _) when unclear -> ("uncovered", "vertices of no triangle at corners")
+      | No (why, rest) -> refused_at why rest
+    else match if exact then meeting_Z scene list else meeting_double scene list with
       | Yes (hit, _) -> ("accepted", if hit then "hit" else "near")
       | No (why, rest) -> refused_at why rest
-    else match if exact then check_Z scene (kept_Z a ba) (kept_Z b bb) list
-      else check_double scene (kept_double a ba) (kept_double b bb) list with
-    | Yes (true, _) -> ("accepted", "free")
-    | Yes (false, _) -> ("uncovered", "surfaces never meet; rays follow")
-    | No (why, rest) -> refused_at why rest
 
 (* ---- as Coq terms: the scenes of Scenes.v *)
 
