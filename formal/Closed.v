@@ -79,7 +79,8 @@ Fixpoint flood (fuel : nat) (todo : list zv) (m : Places.t (list ztri)) := match
     | None => flood fuel todo m
     | Some l => flood fuel (flat_map corners_of l ++ todo) (Places.remove p m) end end end.
 Definition gone p (m : Places.t (list ztri)) := Places.find p m = None.
-Lemma flood_ok l fuel : forall todo m m', (forall p k, Places.find p m = Some k -> forall T, In T k <-> In T l /\ In p (corners_of T)) ->
+Lemma flood_ok l fuel : forall todo m m', (forall p k, Places.find p m = Some k -> forall T, In T k <-> In T l /\
+  In p (corners_of T)) ->
   (forall T p q, In T l -> In p (corners_of T) -> In q (corners_of T) -> gone p m -> gone q m \/ In q todo) ->
   flood fuel todo m = Some m' ->
   (forall p, In p todo \/ gone p m -> gone p m') /\
@@ -88,10 +89,12 @@ Lemma flood_ok l fuel : forall todo m m', (forall p k, Places.find p m = Some k 
     (forall T p q, In T l -> In p (corners_of T) -> In q (corners_of T) -> P p -> P q) -> forall p, gone p m' -> gone p m \/ P p.
 Proof.
   induction fuel as [|fuel IH]; intros todo m m' Has Inv H; destruct todo as [|p todo]; simpl in H; try discriminate;
-    try (injection H as <-; split; [simpl; tauto|split; [|auto]]; intros T p q I A B G; destruct (Inv T p q I A B G) as [|[]]; auto).
+    try (injection H as <-; split; [simpl; tauto|split; [|auto]]; intros T p q I A B G; destruct (Inv T p q I A B G) as [|[]];
+      auto).
   destruct (Places.find p m) as [k|] eqn:F.
   - assert (R : forall q, gone q (Places.remove p m) <-> q = p \/ gone q m).
-    { intros q. unfold gone. rewrite PF.remove_o. destruct (Place.eq_dec p q) as [E|N]; unfold Place.eq in *; intuition congruence. }
+    { intros q. unfold gone. rewrite PF.remove_o. destruct (Place.eq_dec p q) as [E|N]; unfold Place.eq in *;
+      intuition congruence. }
     apply IH in H.
     + destruct H as (A & B & C). split; [|split; [exact B|]].
       * intros q [[<-|I]|G]; apply A; rewrite R, in_app_iff; auto.
@@ -158,7 +161,8 @@ Lemma surface_ok l hint f : surface_of l hint = Some f ->
 Proof.
   unfold surface_of. cbv zeta. destruct (flood _ (uneven l) _) as [m|] eqn:A; [|discriminate].
   destruct (flood _ hint _) as [m'|] eqn:B; [|discriminate]. destruct (forallb _ l) eqn:C; [|discriminate].
-  intros H. injection H as <-. cbn [kept starts is_corner]. apply from_ok in A as (A1 & A2 & A3). apply from_ok in B as (_ & B2 & B3).
+  intros H. injection H as <-. cbn [kept starts is_corner]. apply from_ok in A as (A1 & A2 & A3).
+    apply from_ok in B as (_ & B2 & B3).
   split; [|split].
   - intros T I. split.
     + intros K U p q J E. destruct (classic (evenly l p q)) as [|N]; auto. exfalso.
@@ -170,7 +174,8 @@ Proof.
       destruct D as [IU D]. apply (D p); [apply (edge_corners U p q E)|]. apply A1, uneven_ok. exists q. split; auto.
       apply in_flat_map. eauto.
     + intros K. destruct (Places.mem (za T) m) eqn:M; auto. apply mem_gone in M.
-      destruct (A3 (fun r => exists U W p q, In W l /\ In r (corners_of W) /\ joined l W U /\ In (p, q) (edges U) /\ ~ evenly l p q))
+      destruct (A3 (fun r => exists U W p q, In W l /\ In r (corners_of W) /\ joined l W U /\ In (p, q) (edges U) /\
+        ~ evenly l p q))
         with (T := T) (p := za T) as (U & W & p & q & IW & R & J & E & N); auto using za_corner.
       * intros p I'. apply uneven_ok in I' as (q & E & N). apply in_flat_map in E as (U & IU & E).
         exists U, U, p, q. repeat split; auto; [apply (edge_corners U p q E)|apply itself].
@@ -193,7 +198,8 @@ Lemma part_exists l : exists c, closed_part l c.
 Proof.
   assert (H : forall k, exists keep : ztri -> bool, forall T, In T k -> (keep T = true <-> closed l T)).
   { induction k as [|U k (keep & IH)]; [exists (fun _ => true); intros T []|].
-    assert (K : exists b : bool, b = true <-> closed l U) by (destruct (classic (closed l U)); [exists true|exists false]; intuition congruence).
+    assert (K : exists b : bool, b = true <-> closed l U) by (destruct (classic (closed l U)); [exists true|exists false];
+      intuition congruence).
     destruct K as (b & K). exists (fun T => if tri_dec T U then b else keep T). intros T I.
     destruct (tri_dec T U) as [->|N]; [exact K|]. apply IH. destruct I as [<-|I]; [contradiction|exact I]. }
   destruct (H l) as (keep & K). exists (filter keep l), keep. auto.
@@ -206,7 +212,8 @@ Qed.
 Lemma count_filter keep l e : (forall T, In T l -> In e (edges T) -> keep T = true) ->
   count_occ edge_dec (flat_map edges (filter keep l)) e = count_occ edge_dec (flat_map edges l) e.
 Proof.
-  induction l as [|T l IH]; intros H; [reflexivity|]. cbn [filter flat_map]. rewrite count_occ_app, <- IH by (intros; apply H; simpl; auto).
+  induction l as [|T l IH]; intros H; [reflexivity|]. cbn [filter flat_map]. rewrite count_occ_app, <- IH by (intros; apply H;
+    simpl; auto).
   destruct (keep T) eqn:K; [cbn [flat_map]; apply count_occ_app|].
   rewrite (proj1 (count_occ_not_In edge_dec (edges T) e)); [reflexivity|]. intros I. rewrite H in K by (simpl; auto). discriminate.
 Qed.
@@ -226,7 +233,8 @@ Proof.
       * apply in_flat_map in F as (U & IU & F). symmetry.
         apply (proj1 (H U IU) (D (q, p) U (or_intror (or_introl eq_refl)) IU F) U q p (itself l U) F).
       * rewrite !(proj1 (count_occ_not_In _ _ _)); auto.
-  - rewrite !(proj1 (count_occ_not_In _ _ _)); auto; intros E; apply in_flat_map in E as (U & IU & E); apply filter_In in IU as [IU K];
+  - rewrite !(proj1 (count_occ_not_In _ _ _)); auto; intros E; apply in_flat_map in E as (U & IU & E);
+    apply filter_In in IU as [IU K];
       apply N; exists U; apply edge_corners in E; tauto.
 Qed.
 Lemma part_in l c T : closed_part l c -> In T c -> In T l.
@@ -238,7 +246,8 @@ Proof.
   intros W S. unfold winding. induction l as [|T l IH]; [reflexivity|]. cbn [map fold_right]. f_equal; [|exact IH].
   pose proof (attitude_unit m W t) as Q. set (q := attitude m t) in *. set (s := scale m) in *.
   assert (E : forall p, vsub (place m t p) (place m t y) = vscale s (turned q (vsub p y))).
-  { intros p. rewrite !place_turned by exact W. fold q s. rewrite <- turned_vsub. apply V_eq; unfold vsub, vscale, vadd; simpl; ring. }
+  { intros p. rewrite !place_turned by exact W. fold q s. rewrite <- turned_vsub. apply V_eq; unfold vsub, vscale, vadd; simpl;
+    ring. }
   assert (N : forall v, norm (vscale s (turned q v)) = s * norm v) by (intros; rewrite norm_vscale, turned_norm, Q by lra; ring).
   assert (D : forall v w, dot (turned q v) (turned q w) = dot v w).
   { intros v w. transitivity (qdot q q * qdot q q * dot v w); [unfold dot, turned, qdot; simpl; ring|rewrite Q; ring]. }
@@ -268,7 +277,8 @@ Proof.
     by (intros; unfold det, dot, cross; cbn [vx vy vz]; ring).
   specialize (E (vsub (c0 T) x) (vsub (c1 T) x) (vsub (c2 T) x)).
   destruct J as [m A B C D|J|J|J|J], K as [m' A' B' C' D'|K|K|K|K]; auto; cbv zeta in *; exfalso;
-    try (specialize (E m)); try (specialize (E m')); revert E; generalize dependent (det (vsub (c0 T) x) (vsub (c1 T) x) (vsub (c2 T) x));
+    try (specialize (E m)); try (specialize (E m')); revert E; generalize dependent (det (vsub (c0 T) x) (vsub (c1 T) x) (vsub (c2
+      T) x));
     intros; nra.
 Qed.
 
@@ -290,7 +300,8 @@ Qed.
 Lemma steady_now b c y : rigid b -> steady c -> (forall u, 0 <= c u <= 1) -> steadyV (fun u => place (now b (c u)) (c u) y).
 Proof.
   intros R C In01. pose proof R as ((Cv & _) & F).
-  set (g := fun m u => vadd (vscale (scale (pieceR (size b) m)) (turned (attitude (pieceR (size b) m) (c u)) y)) (origin (pieceR (size b) m) (c u))).
+  set (g := fun m u => vadd (vscale (scale (pieceR (size b) m)) (turned (attitude (pieceR (size b) m) (c u)) y)) (origin (pieceR
+    (size b) m) (c u))).
   assert (Open : forall m u, ~ during m (c u) -> locally u (fun v => ~ during m (c v))).
   { intros m u N. apply (outside_open _ _ _ _ C N). }
   assert (Some_ : forall u, exists m, In m (pieces b) /\ during m (c u)) by (intros u; apply (Cv _ (In01 u))).
@@ -308,7 +319,8 @@ Lemma touches_now b t x c : rigid b -> 0 <= t <= 1 -> (forall T, In T c -> In T 
   touches x (map (image (stands b t)) c) -> at_time b t x.
 Proof.
   intros R T I (U & J & X). apply in_map_iff in J as (W & <- & J). apply now_points; auto.
-  destruct X as (k & l & n & K & L & N & S & ->). exists W, (mix k l n (triR (den b) W)). split; [auto|split; [exists k, l, n; auto|]].
+  destruct X as (k & l & n & K & L & N & S & ->). exists W, (mix k l n (triR (den b) W)). split; [auto|split; [exists k, l, n;
+    auto|]].
   symmetry. apply (place_mix (now b t) t (triR (den b) W)); auto.
 Qed.
 Lemma winds_now b t x : rigid b -> 0 <= t <= 1 -> forall c, closed_part (tris b) c ->
@@ -349,7 +361,8 @@ Let number t y := winding (place (now a t) t y) (map (image (stands b t)) c).
 Lemma untouched t y T : 0 <= t <= 1 -> In T (tris a) -> of_tri y (triR (den a) T) ->
   ~ touches (place (now a t) t y) (map (image (stands b t)) c).
 Proof.
-  intros Rt I Y X. apply touches_now in X; auto; [|intros U; apply part_in, Part]. revert X. apply Never; auto. apply now_points; eauto.
+  intros Rt I Y X. apply touches_now in X; auto; [|intros U; apply part_in, Part]. revert X. apply Never; auto. apply now_points;
+    eauto.
 Qed.
 (* at one time: all over a triangle *)
 Lemma over_triangle t T x y : 0 <= t <= 1 -> In T (tris a) -> of_tri x (triR (den a) T) -> of_tri y (triR (den a) T) ->

@@ -15,7 +15,8 @@ Variable prec : I.precision.
 Definition sign i : Z := match I.sign_strict i with Xgt => 1 | Xlt => -1 | _ => 0 end.
 Lemma sign_ok i r : inI i r -> sign i = 0%Z \/ sign i = 1%Z /\ 0 < r \/ sign i = (-1)%Z /\ r < 0.
 Proof.
-  intros H. unfold sign. pose proof (I.sign_strict_correct i) as S. destruct (I.sign_strict i); auto; specialize (S _ H); simpl in S; tauto.
+  intros H. unfold sign. pose proof (I.sign_strict_correct i) as S. destruct (I.sign_strict i); auto; specialize (S _ H);
+    simpl in S; tauto.
 Qed.
 (* the line misses a box, and then all triangles in it, if it misses it seen along an axis *)
 Definition misses y d bx := let w := icross prec d (isub prec bx y) in
@@ -27,7 +28,8 @@ Definition crossing y d T : option Z :=
   if ((i * j =? -1) || (j * k =? -1) || (k * i =? -1))%Z then Some 0%Z else
   if (i * j * k =? 0)%Z then None else
   let vol := sign (idet prec u v w) in if (vol =? 0)%Z then None else Some (if (vol =? i)%Z then i else 0%Z).
-Lemma same_sign i a b c : (sign i =? 0)%Z = false -> inI i a -> inI i b -> inI i c -> 0 < a /\ 0 < b /\ 0 < c \/ a < 0 /\ b < 0 /\ c < 0.
+Lemma same_sign i a b c : (sign i =? 0)%Z = false -> inI i a -> inI i b -> inI i c -> 0 < a /\ 0 < b /\ 0 < c \/ a < 0 /\
+  b < 0 /\ c < 0.
 Proof.
   intros N A B C. apply Z.eqb_neq in N. apply sign_ok in A, B, C.
   destruct A as [|[[S L]|[S L]]]; [contradiction|left|right]; rewrite S in B, C; intuition discriminate.
@@ -42,9 +44,11 @@ Lemma misses_ok y d bx yR dR T : inV y yR -> inV d dR -> inV bx (c0 T) -> inV bx
   misses y d bx = true -> crosses dR yR T 0.
 Proof.
   intros Y D A B C H. unfold misses in H. apply negb_true_iff in H. rewrite !andb_false_iff in H.
-  assert (K : forall p, inV bx p -> inV (icross prec d (isub prec bx y)) (cross dR (vsub p yR))) by (intros; apply in_cross; auto; apply in_vsub; auto).
+  assert (K : forall p, inV bx p -> inV (icross prec d (isub prec bx y)) (cross dR (vsub p yR))) by (intros; apply in_cross; auto;
+    apply in_vsub; auto).
   destruct (K _ A) as (A1 & A2 & A3), (K _ B) as (B1 & B2 & B3), (K _ C) as (C1 & C2 & C3). clear K.
-  destruct H as [[H|H]|H]; [apply (aside_either _ _ _ (mkV 0 (- vz dR) (vy dR)))|apply (aside_either _ _ _ (mkV (vz dR) 0 (- vx dR)))
+  destruct H as [[H|H]|H]; [apply (aside_either _ _ _ (mkV 0 (- vz dR) (vy dR)))|apply (aside_either _ _ _ (mkV (vz dR) 0 (- vx
+    dR)))
     |apply (aside_either _ _ _ (mkV (- vy dR) (vx dR) 0))]; try (unfold dot; cbn [vx vy vz]; ring); cbv zeta;
     assert (E : forall a b c a' b' c', a = a' -> b = b' -> c = c' -> 0 < a /\ 0 < b /\ 0 < c \/ a < 0 /\ b < 0 /\ c < 0 ->
       0 < a' /\ 0 < b' /\ 0 < c' \/ a' < 0 /\ b' < 0 /\ c' < 0) by (intros; subst; auto);
@@ -54,7 +58,8 @@ Qed.
 Lemma crossing_ok y d T yR dR TR k : inV y yR -> inV d dR -> inT T TR -> crossing y d T = Some k -> crosses dR yR TR k.
 Proof.
   intros Y D (A & B & C). unfold crossing. cbv zeta.
-  pose proof (in_vsub prec _ _ _ _ A Y) as U. pose proof (in_vsub prec _ _ _ _ B Y) as V. pose proof (in_vsub prec _ _ _ _ C Y) as W.
+  pose proof (in_vsub prec _ _ _ _ A Y) as U. pose proof (in_vsub prec _ _ _ _ B Y) as V.
+    pose proof (in_vsub prec _ _ _ _ C Y) as W.
   assert (Det : forall a b c aR bR cR, inV a aR -> inV b bR -> inV c cR -> inI (idet prec a b c) (det aR bR cR))
     by (intros; apply in_dot; auto; apply in_cross; auto).
   pose proof (sign_ok _ _ (in_dot prec _ _ _ _ D U)) as Su. pose proof (sign_ok _ _ (in_dot prec _ _ _ _ D V)) as Sv.
@@ -114,14 +119,17 @@ Qed.
 Lemma in_box_corners scale l T : In T l -> inV (box prec (node_of den_ scale l)) (c0 (triR den_ T)) /\
   inV (box prec (node_of den_ scale l)) (c1 (triR den_ T)) /\ inV (box prec (node_of den_ scale l)) (c2 (triR den_ T)).
 Proof.
-  intros I. split; [|split]; apply in_box; exists T; (split; [exact I|]); [apply (of_corner den_ T (za T))|apply (of_corner den_ T (zb T))
+  intros I. split; [|split]; apply in_box; exists T; (split; [exact I|]);
+    [apply (of_corner den_ T (za T))|apply (of_corner den_ T (zb T))
     |apply (of_corner den_ T (zc T))]; simpl; auto.
 Qed.
 Lemma cut_permuted l : Permutation (map snd (fst (cut l)) ++ map snd (snd (cut l))) (map snd l).
 Proof.
-  unfold cut. match goal with |- context [Sorted.sort ?v] => set (w := v) end. cbn [fst snd]. rewrite <- map_app, firstn_skipn, map_map.
+  unfold cut. match goal with |- context [Sorted.sort ?v] => set (w := v) end. cbn [fst snd]. rewrite <- map_app, firstn_skipn,
+    map_map.
   assert (E : map (fun e : Keyed.t => snd (let '(_, i, T) := e in (i, T))) w = map snd l)
-    by (unfold w; destruct (_ >? _)%Z; destruct (_ >? _)%Z; unfold keyed; rewrite map_map; apply map_ext; intros [i T]; reflexivity).
+    by (unfold w; destruct (_ >? _)%Z; destruct (_ >? _)%Z; unfold keyed; rewrite map_map; apply map_ext; intros [i T];
+      reflexivity).
   rewrite <- E. apply Permutation_map, Permutation_sym, Sorted.Permuted_sort.
 Qed.
 Lemma counted_missed scale l : misses y d (box prec (node_of den_ scale l)) = true -> counted l 0.
@@ -156,7 +164,8 @@ Qed.
 End Cast.
 
 (* ---- a corner of one body as another sees it, and how often that one's closed components wind about it *)
-Definition iseen sz ip x := iscale prec (I.div prec (I.fromZ prec 1) (I.sqr prec (iQ prec sz))) (way prec (isub prec x (org ip)) ip).
+Definition iseen sz ip x := iscale prec (I.div prec (I.fromZ prec 1) (I.sqr prec (iQ prec sz))) (way prec (isub prec x (org ip))
+  ip).
 Lemma in_seen sz ip qm t x xR : let m := pieceR sz qm in well_formed m -> 0 < Q2R sz -> inPose ip m t -> inV x xR ->
   inV (iseen sz ip x) (seen m t xR).
 Proof.
@@ -170,7 +179,8 @@ Proof.
   { intros y. pose proof (E y) as F. rewrite place_turned in F by exact W. change (scale m) with (Q2R sz) in F.
     pose proof (f_equal vx F) as F1. pose proof (f_equal vy F) as F2. pose proof (f_equal vz F) as F3.
     unfold vadd in F1, F2, F3. cbn [vx vy vz] in *. apply V_eq; cbn [vx vy vz]; lra. }
-  replace (seen m t xR) with (vscale (1 / (Q2R sz * Q2R sz)) (vadd (vadd (vscale (vx v) A) (vscale (vy v) B)) (vscale (vz v) C))); [exact H|].
+  replace (seen m t xR) with (vscale (1 / (Q2R sz * Q2R sz)) (vadd (vadd (vscale (vx v) A) (vscale (vy v) B)) (vscale (vz v) C)));
+    [exact H|].
   unfold seen. change (scale m) with (Q2R sz). fold v. set (q := attitude m t) in *.
   pose proof (Rows (mkV 1 0 0)) as X1. pose proof (Rows (mkV 0 1 0)) as X2. pose proof (Rows (mkV 0 0 1)) as X3. clear - S X1 X2 X3.
   destruct A as [a1 a2 a3], B as [b1 b2 b3], C as [d1 d2 d3].
@@ -210,13 +220,15 @@ Qed.
 Lemma tree_is b : exists fuel, tree_of b = build fuel (den b) (size b) (number 0 (tris b)).
 Proof. exists 64%nat. reflexivity. Qed.
 Lemma cast_winds by_ hint f t n b k y x : surface_of (tris by_) hint = Some f -> let m := pieceR (size by_) b in
-  well_formed m -> 0 < scale m -> 0 < norm (normalR n) -> inV y (seen m t x) -> cast (kept f) (den by_) y (inormal prec n) (tree_of by_) = Some k ->
+  well_formed m -> 0 < scale m -> 0 < norm (normalR n) -> inV y (seen m t x) ->
+    cast (kept f) (den by_) y (inormal prec n) (tree_of by_) = Some k ->
   winding x (map (fun T => placed m t (triR (den by_) T)) (filter (kept f) (tris by_))) = IZR k.
 Proof.
   intros F m W S N Y H. destruct (tree_is by_) as (fuel & E0). rewrite E0 in H.
   apply (cast_ok (kept f) (den by_) y (inormal prec n) (seen m t x) (normalR n) Y (in_normal prec n)) in H.
   rewrite number_snd in H. apply counted_all in H as (count & C & ->).
-  assert (Part : closed_part (tris by_) (filter (kept f) (tris by_))) by (exists (kept f); split; [reflexivity|apply (surface_ok _ _ _ F)]).
+  assert (Part : closed_part (tris by_) (filter (kept f) (tris by_))) by (exists (kept f); split;
+    [reflexivity|apply (surface_ok _ _ _ F)]).
   assert (E : winding (place m t (seen m t x)) (map (placed m t) (map (triR (den by_)) (filter (kept f) (tris by_)))) =
     winding (seen m t x) (map (triR (den by_)) (filter (kept f) (tris by_)))) by (apply winding_placed; assumption).
   rewrite map_map, place_seen in E by (try apply Rgt_not_eq; assumption). rewrite E.
@@ -232,7 +244,8 @@ Proof.
   destruct (pose_of by_ t) as [j|] eqn:Pj; [|discriminate]. destruct (_ && _)%bool eqn:N; [discriminate|]. intros H.
   apply pose_of_ok in Pi as (m & Im & Dm & Pm & Wm); auto. apply pose_of_ok in Pj as (b & Ib & Db & Pb & Wb); auto.
   exists m. split; [exact Im|split; [exact Dm|]].
-  assert (X : inV (iplace prec i (ipoint prec (den of) p)) (place (pieceR (size of) m) (Q2R t) (pointR (den of) p))) by (apply in_place; auto; apply in_point).
+  assert (X : inV (iplace prec i (ipoint prec (den of) p)) (place (pieceR (size of) m) (Q2R t) (pointR (den of) p))) by (apply
+    in_place; auto; apply in_point).
   pose proof (in_seen (size by_) j b (Q2R t) _ _ Wb Z0 Pb X) as Y. exists b, (filter (kept f) (tris by_)).
   split; [exact Ib|split; [exact Db|split; [exists (kept f); split; [reflexivity|apply (surface_ok _ _ _ F)]|]]].
   symmetry. exact (cast_winds by_ hint f (Q2R t) n b k _ _ F Wb Z0 (normal_pos n N) Y H).
@@ -251,7 +264,8 @@ Fixpoint rays (shoot : zv -> zv -> option Z) (from : list zv) (l : list bool) (n
 Lemma rays_ok shoot from : forall l ns out, rays shoot from l ns = Yes out -> forall p, In p from -> exists n, shoot n p = Some 0%Z.
 Proof.
   induction from as [|q from IH]; intros l ns out H p I; [destruct I|]. cbn [rays] in H.
-  destruct (match l with [] => None | true :: l => Some (ns, l) | false :: l => read_normal ns l end) as [[ns' l']|]; [|discriminate].
+  destruct (match l with [] => None | true :: l => Some (ns, l) | false :: l => read_normal ns l end) as [[ns' l']|];
+    [|discriminate].
   destruct (shoot _ q) as [k|] eqn:E; [|discriminate]. destruct (k =? 0)%Z eqn:K; [|discriminate]. apply Z.eqb_eq in K.
   destruct I as [<-|I]; [subst k; eauto|eauto].
 Qed.
@@ -271,7 +285,8 @@ Definition free_of (s : scene) (ta tb : tree) (fa fb : option surface) (bytes : 
         | Yes (rest, _) => if (8 <=? length rest)%nat then No Follows rest else Yes tt end end
     | _, _ => No Unfit rest end end.
 Definition frees (s : scene) (hint : list zv * list zv) bytes := match free_of s (tree_of (body_a s)) (tree_of (body_b s))
-  (surface_of (tris (body_a s)) (fst hint)) (surface_of (tris (body_b s)) (snd hint)) bytes with Yes _ => true | No _ _ => false end.
+  (surface_of (tris (body_a s)) (fst hint)) (surface_of (tris (body_b s)) (snd hint)) bytes with Yes _ => true | No _ _ => false
+    end.
 
 Lemma rays_never a b hint f hint' f' from l ns out : sound_body a = true -> sound_body b = true -> rigid a -> rigid b ->
   0 < Q2R (size b) -> (forall t x, 0 <= t <= 1 -> at_time a t x -> ~ at_time b t x) ->
@@ -348,11 +363,14 @@ Theorem insides_sound : sound_inside insides.
 Proof.
   intros s [[ha hb] corner] bytes of_b t. unfold insides, inside_of. cbv zeta.
   destruct (field (bits_of bytes) 72 1 =? 1)%Z;
-    (destruct (negb _) eqn:E; [discriminate|]; apply negb_false_iff in E; rewrite !andb_true_iff in E; destruct E as (((So & Sb) & U) & Z0);
+    (destruct (negb _) eqn:E; [discriminate|]; apply negb_false_iff in E; rewrite !andb_true_iff in E;
+      destruct E as (((So & Sb) & U) & Z0);
     apply Qlt_bool_R in Z0; rewrite Q2R_0 in Z0; apply is_share_R in U;
-    destruct (surface_of (tris (body_a s)) ha) as [fa|] eqn:Ea; destruct (surface_of (tris (body_b s)) hb) as [fb|] eqn:Eb; try discriminate;
+    destruct (surface_of (tris (body_a s)) ha) as [fa|] eqn:Ea; destruct (surface_of (tris (body_b s)) hb) as [fb|] eqn:Eb;
+      try discriminate;
     destruct (read_normal _ _) as [[ns rest]|]; [|discriminate]; destruct (corner _ _) as [p|]; [|discriminate];
-    destruct (negb _) eqn:C; [discriminate|]; apply negb_false_iff in C; destruct (shot _ _ _ _ _ _ _) as [k|] eqn:S; [|discriminate];
+    destruct (negb _) eqn:C; [discriminate|]; apply negb_false_iff in C; destruct (shot _ _ _ _ _ _ _) as [k|] eqn:S;
+      [|discriminate];
     destruct (k =? 0)%Z eqn:K; [discriminate|]; destruct (_ <? _)%nat; [discriminate|]; destruct (_ <=? _)%nat; [discriminate|];
     intros H; injection H as <- <-; split; [exact U|split; [|split; apply sound_body_moves; assumption]]).
   - apply (shot_within _ _ _ _ _ _ _ _ _ _ So Sb Z0 Eb C Ea S K).
