@@ -1,5 +1,5 @@
-(* referee.ml - build/referee: the checkers that Checker.v and Meeting.v prove sound, on the files that
-   build/verify reads (examples/FORMATS.md), by code that shares no line with it.
+(* referee.ml - build/referee: the checkers that Checker.v, Meeting.v and Rays.v prove sound, on the
+   files that build/verify reads (examples/FORMATS.md), by code that shares no line with it.
 
      referee PROBLEMS.txt FOLDER [--clearance METRES] [--only ID,ID] [--exact] [--coq]
 
