@@ -304,7 +304,7 @@ Proof.
   intros s [ha hb] bytes H. unfold frees, free_of in H. cbn [fst snd] in H.
   destruct (check_trees _ _ _ _ _) as [[[rest ns] ap]|] eqn:E; [|discriminate].
   assert (A : accepts prec s bytes = Some ap) by (unfold accepts, check; rewrite E; reflexivity).
-  destruct (accepts_sound prec s bytes ap A) as (M & I & Ma & Mb & W). destruct (accepts_formed prec s bytes ap A) as (_ & Fa & Fb).
+  destruct (accepts_sound prec s bytes ap A) as (M & I & Ma & Mb & W). destruct (accepts_well_posed prec s bytes ap A) as (_ & Fa & Fb).
   split; [exact M|split; [|auto]].
   assert (Ra : rigid (body_a s)) by (split; auto). assert (Rb : rigid (body_b s)) by (split; auto).
   destruct ap.
