@@ -62,3 +62,71 @@ Proof.
   intros K E R P. pose proof (half_angle_same (- k) X Y r) as H.
   assert (- - k * (PI / 2) - atan (Y / (r - X)) = atan (Y / (X + r))) by (apply H; auto; lra). lra.
 Qed.
+
+(* ---- where the ray goes through a triangle *)
+Definition re_of a b c := norm a * norm b * norm c + dot a b * norm c + dot b c * norm a + dot c a * norm b.
+Lemma norm2 a : norm a * norm a = dot a a.
+Proof. apply sqrt_sqrt, dot_pos. Qed.
+Lemma off_edge d a b : det d a b <> 0 -> 0 < norm a * norm b + dot a b.
+Proof.
+  intros N. assert (W : 0 < dot (cross a b) (cross a b)).
+  { destruct (dot_pos (cross a b)) as [W|W]; auto. exfalso. apply N. pose proof (cauchy d (cross a b)) as C. unfold norm in C at 2.
+    rewrite <- W, sqrt_0, Rmult_0_r in C. fold (det d a b) in C. destruct (Req_dec (det d a b) 0); auto.
+    pose proof (Rabs_pos_lt _ H). lra. }
+  assert (L : dot a a * dot b b = dot a b * dot a b + dot (cross a b) (cross a b)) by (unfold dot, cross; cbn [vx vy vz]; ring).
+  pose proof (norm_pos a). pose proof (norm_pos b).
+  assert (S : Rabs (dot a b) < Rabs (norm a * norm b)).
+  { apply Rsqr_lt_abs_0. unfold Rsqr. replace (_ * _ * (_ * _)) with (norm a * norm a * (norm b * norm b)) by ring. rewrite !norm2. lra. }
+  rewrite (Rabs_pos_eq (norm a * norm b)) in S by (apply Rmult_le_pos; auto). apply Rabs_lt_between in S. lra.
+Qed.
+Lemma off_edge_pos a b : 0 < norm a * norm b + dot a b -> 0 < norm a /\ 0 < norm b.
+Proof.
+  intros N. pose proof (norm_pos a). pose proof (norm_pos b). pose proof (cauchy a b) as C. apply Rabs_le_between in C.
+  assert (P : 0 < norm a * norm b) by lra. split; [destruct H as [|E]|destruct H0 as [|E]]; auto; rewrite <- E in P; lra.
+Qed.
+Lemma three_sides p q t : 0 < p -> 0 < q -> 0 < t -> t * t - p * p - q * q + 2 * p * q > 0 -> p - q < t /\ q - p < t.
+Proof.
+  intros P Q T H. assert (A : Rabs (p - q) < Rabs t) by (apply Rsqr_lt_abs_0; unfold Rsqr; lra).
+  rewrite (Rabs_pos_eq t) in A by lra. apply Rabs_lt_between in A. lra.
+Qed.
+Lemma re_within a b c A B C : 0 < A -> 0 < B -> 0 < C -> vadd (vscale A a) (vadd (vscale B b) (vscale C c)) = mkV 0 0 0 ->
+  0 < norm a * norm b + dot a b -> 0 < norm b * norm c + dot b c -> 0 < norm c * norm a + dot c a -> re_of a b c < 0.
+Proof.
+  intros PA PB PC S Oab Obc Oca. destruct (off_edge_pos _ _ Oab) as [Na Nb], (off_edge_pos _ _ Obc) as [_ Nc].
+  assert (X : A * vx a + B * vx b + C * vx c = 0) by (apply (f_equal vx) in S; simpl in S; lra).
+  assert (Y : A * vy a + B * vy b + C * vy c = 0) by (apply (f_equal vy) in S; simpl in S; lra).
+  assert (Z : A * vz a + B * vz b + C * vz c = 0) by (apply (f_equal vz) in S; simpl in S; lra). clear S.
+  set (p := A * norm a). set (q := B * norm b). set (t := C * norm c).
+  assert (Pp : 0 < p) by (apply Rmult_lt_0_compat; auto). assert (Pq : 0 < q) by (apply Rmult_lt_0_compat; auto).
+  assert (Pt : 0 < t) by (apply Rmult_lt_0_compat; auto).
+  assert (Ep : p * p = A * A * dot a a) by (rewrite <- norm2; unfold p; ring).
+  assert (Eq : q * q = B * B * dot b b) by (rewrite <- norm2; unfold q; ring).
+  assert (Et : t * t = C * C * dot c c) by (rewrite <- norm2; unfold t; ring).
+  assert (D : forall v, A * dot v a + B * dot v b + C * dot v c = 0).
+  { intros v. unfold dot. transitivity (vx v * (A * vx a + B * vx b + C * vx c) + vy v * (A * vy a + B * vy b + C * vy c) +
+      vz v * (A * vz a + B * vz b + C * vz c)); [ring|rewrite X, Y, Z; ring]. }
+  assert (K : forall v w, dot v w = dot w v) by (intros; unfold dot; ring).
+  pose proof (D a) as Da. pose proof (D b) as Db. pose proof (D c) as Dc. rewrite (K b a) in Db. rewrite (K a c) in Da. rewrite (K c b) in Dc.
+  assert (Fa : A * (A * dot a a + B * dot a b + C * dot c a) = 0) by (rewrite Da; ring).
+  assert (Fb : B * (A * dot a b + B * dot b b + C * dot b c) = 0) by (rewrite Db; ring).
+  assert (Fc : C * (A * dot c a + B * dot b c + C * dot c c) = 0) by (rewrite Dc; ring).
+  assert (E1 : 2 * (A * B * dot a b) = t * t - p * p - q * q) by (rewrite Ep, Eq, Et; lra).
+  assert (E2 : 2 * (B * C * dot b c) = p * p - q * q - t * t) by (rewrite Ep, Eq, Et; lra).
+  assert (E3 : 2 * (C * A * dot c a) = q * q - t * t - p * p) by (rewrite Ep, Eq, Et; lra).
+  assert (T1 : 0 < A * B * (norm a * norm b + dot a b)) by (repeat apply Rmult_lt_0_compat; auto).
+  assert (T2 : 0 < B * C * (norm b * norm c + dot b c)) by (repeat apply Rmult_lt_0_compat; auto).
+  assert (T3 : 0 < C * A * (norm c * norm a + dot c a)) by (repeat apply Rmult_lt_0_compat; auto).
+  assert (Q1 : A * B * (norm a * norm b) = p * q) by (unfold p, q; ring).
+  assert (Q2 : B * C * (norm b * norm c) = q * t) by (unfold t, q; ring).
+  assert (Q3 : C * A * (norm c * norm a) = t * p) by (unfold p, t; ring).
+  rewrite Rmult_plus_distr_l in T1, T2, T3.
+  destruct (three_sides p q t); auto; [lra|]. destruct (three_sides q t p); auto; [lra|]. clear D K Da Db Dc Fa Fb Fc.
+  assert (R : 2 * (A * B * C * re_of a b c) = - ((p + q - t) * (q + t - p) * (t + p - q))).
+  { transitivity (2 * p * q * t + 2 * (A * B * dot a b) * t + 2 * (B * C * dot b c) * p + 2 * (C * A * dot c a) * q).
+    - unfold re_of, p, q, t. ring.
+    - rewrite E1, E2, E3. ring. }
+  assert (0 < (p + q - t) * (q + t - p) * (t + p - q)) by (repeat apply Rmult_lt_0_compat; lra).
+  assert (P3 : 0 < A * B * C) by (repeat apply Rmult_lt_0_compat; auto).
+  destruct (Rlt_dec (re_of a b c) 0) as [|N]; auto. exfalso.
+  assert (0 <= A * B * C * re_of a b c) by (apply Rmult_le_pos; lra). lra.
+Qed.
