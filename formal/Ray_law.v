@@ -130,3 +130,62 @@ Proof.
   destruct (Rlt_dec (re_of a b c) 0) as [|N]; auto. exfalso.
   assert (0 <= A * B * C * re_of a b c) by (apply Rmult_le_pos; lra). lra.
 Qed.
+
+(* ---- the complex number of a triangle, and the angle as it goes on: k is how often the ray crosses it *)
+Definition re x T := re_of (vsub (c0 T) x) (vsub (c1 T) x) (vsub (c2 T) x).
+Definition im x T := det (vsub (c0 T) x) (vsub (c1 T) x) (vsub (c2 T) x).
+Definition rad x T := sqrt (re x T * re x T + im x T * im x T).
+Definition turn k x T := if Z.eq_dec k 0 then wound_by x T * PI else - IZR k * (PI / 2) - atan (im x T / (rad x T - re x T)).
+Lemma rad2 x T : rad x T * rad x T = re x T * re x T + im x T * im x T.
+Proof. apply sqrt_sqrt. pose proof (Rle_0_sqr (re x T)). pose proof (Rle_0_sqr (im x T)). unfold Rsqr in *. lra. Qed.
+Lemma rad_pos x T : 0 <= rad x T.
+Proof. apply sqrt_pos. Qed.
+Lemma rad_off x T : im x T <> 0 \/ re x T < 0 -> 0 < rad x T /\ 0 < rad x T - re x T.
+Proof.
+  intros H. pose proof (rad_pos x T) as P. pose proof (rad2 x T) as E. pose proof (Rle_0_sqr (im x T)) as I. pose proof (Rle_0_sqr (re x T)) as J.
+  assert (N : 0 < rad x T).
+  { destruct P as [|Z]; auto. exfalso. rewrite <- Z in E. unfold Rsqr in *. destruct H as [H|H]; apply Rsqr_pos_lt in H || apply Rlt_not_eq, Rsqr_pos_lt in H;
+      unfold Rsqr in H; lra. }
+  split; [exact N|]. destruct (Rlt_dec (re x T) 0); [lra|]. destruct H as [H|H]; [|contradiction]. apply Rsqr_pos_lt in H.
+  assert (A : Rabs (re x T) < Rabs (rad x T)) by (apply Rsqr_lt_abs_0; unfold Rsqr in *; lra).
+  rewrite !Rabs_pos_eq in A by lra. lra.
+Qed.
+
+Definition ray x d h := vadd x (vscale h d).
+Section Crossed.
+Variables (x d : V) (T : tri) (k : R).
+Let u := vsub (c0 T) x. Let v := vsub (c1 T) x. Let w := vsub (c2 T) x.
+Hypothesis K : k = 1 \/ k = -1.
+Hypothesis S1 : 0 < k * det d u v.
+Hypothesis S2 : 0 < k * det d v w.
+Hypothesis S3 : 0 < k * det d w u.
+Hypothesis Vol : 0 < k * det u v w.
+Lemma ray_im h : k * im (ray x d h) T = k * det u v w - h * (k * det d u v + k * det d v w + k * det d w u).
+Proof. unfold im, ray, u, v, w, det, dot, cross, vsub, vadd, vscale; cbn [vx vy vz]; ring. Qed.
+Lemma ray_det h a b : det d (vsub a (ray x d h)) (vsub b (ray x d h)) = det d (vsub a x) (vsub b x).
+Proof. unfold ray, det, dot, cross, vsub, vadd, vscale; cbn [vx vy vz]; ring. Qed.
+Lemma ray_edges h : let a := vsub (c0 T) (ray x d h) in let b := vsub (c1 T) (ray x d h) in let c := vsub (c2 T) (ray x d h) in
+  0 < norm a * norm b + dot a b /\ 0 < norm b * norm c + dot b c /\ 0 < norm c * norm a + dot c a.
+Proof.
+  assert (N : forall r, 0 < k * r -> r <> 0) by (intros r P ->; lra).
+  intros a b c. split; [|split]; apply (off_edge d); unfold a, b, c; rewrite ray_det; auto.
+Qed.
+Lemma ray_re h : im (ray x d h) T = 0 -> re (ray x d h) T < 0.
+Proof.
+  intros Z. pose proof (ray_im h) as I. rewrite Z, Rmult_0_r in I. destruct (ray_edges h) as (E1 & E2 & E3).
+  apply (re_within _ _ _ (k * det d v w) (k * det d w u) (k * det d u v)); auto.
+  assert (H : forall p q, p = q * (k * det u v w - h * (k * det d u v + k * det d v w + k * det d w u)) -> p = 0)
+    by (intros p q ->; rewrite <- I; ring).
+  apply V_eq; [apply (H _ (vx d))|apply (H _ (vy d))|apply (H _ (vz d))];
+    unfold ray, u, v, w, det, dot, cross, vsub, vadd, vscale; cbn [vx vy vz]; ring.
+Qed.
+Lemma ray_off h : 0 < rad (ray x d h) T /\ 0 < rad (ray x d h) T - re (ray x d h) T.
+Proof. apply rad_off. destruct (Req_dec (im (ray x d h) T) 0) as [Z|]; auto. right. apply ray_re, Z. Qed.
+Lemma ray_far : exists H, forall h, H <= h -> k * im (ray x d h) T < 0.
+Proof.
+  set (s := k * det d u v + k * det d v w + k * det d w u). assert (P : 0 < s) by (unfold s; lra).
+  exists (k * det u v w / s + 1). intros h L. rewrite ray_im. fold s.
+  assert (k * det u v w < h * s); [|lra]. replace (k * det u v w) with (k * det u v w / s * s) by (field; lra).
+  apply Rmult_lt_compat_r; lra.
+Qed.
+End Crossed.
