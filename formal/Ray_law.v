@@ -189,3 +189,121 @@ Proof.
   apply Rmult_lt_compat_r; lra.
 Qed.
 End Crossed.
+
+(* ---- continuity along a way *)
+Lemma steady_comp f g : steady f -> (forall u, continuity_pt g (f u)) -> steady (fun u => g (f u)).
+Proof. intros F G u. apply (continuity_pt_comp f g); [apply F|apply G]. Qed.
+Lemma steady_dot f g : steadyV f -> steadyV g -> steady (fun u => dot (f u) (g u)).
+Proof. intros (A & B & C) (D & E & F). unfold dot. steady. Qed.
+Lemma steady_root f : steady f -> (forall u, 0 <= f u) -> steady (fun u => sqrt (f u)).
+Proof. intros F P. apply steady_comp; auto. intros u. apply continuity_pt_sqrt, P. Qed.
+Lemma steady_norm f : steadyV f -> steady (fun u => norm (f u)).
+Proof. intros F. apply steady_root; [apply steady_dot; auto|intros; apply dot_pos]. Qed.
+Lemma steady_cross f g : steadyV f -> steadyV g -> steadyV (fun u => cross (f u) (g u)).
+Proof. intros (A & B & C) (D & E & F). unfold cross. repeat split; simpl; steady. Qed.
+Lemma steady_atan p q : steady p -> steady q -> (forall u, 0 < q u) -> steady (fun u => atan (p u / q u)).
+Proof.
+  intros P Q N. apply (steady_comp _ atan); [|intros u; apply derivable_continuous_pt, derivable_pt_atan].
+  apply (steady_mult p (fun u => / q u)); auto. intros u. apply (continuity_pt_inv q); [apply Q|]. pose proof (N u). lra.
+Qed.
+Section Way.
+Variables (way : R -> V) (T : tri).
+Hypothesis Way : steadyV way.
+Lemma steady_from p : steadyV (fun u => vsub p (way u)).
+Proof. apply steady_vsub; auto. apply steady_fixed. Qed.
+Lemma steady_re : steady (fun u => re (way u) T).
+Proof.
+  unfold re, re_of. pose proof (fun p => steady_norm _ (steady_from p)). pose proof (fun p q => steady_dot _ _ (steady_from p) (steady_from q)).
+  repeat first [apply H|apply H0|apply steady_plus|apply steady_mult].
+Qed.
+Lemma steady_im : steady (fun u => im (way u) T).
+Proof. unfold im, det. apply steady_dot; [|apply steady_cross]; apply steady_from. Qed.
+Lemma steady_rad : steady (fun u => rad (way u) T).
+Proof.
+  pose proof steady_re. pose proof steady_im. apply steady_root; [apply steady_plus; apply steady_mult; auto|].
+  intros u. rewrite <- rad2. apply Rle_0_sqr.
+Qed.
+Lemma steady_wound : (forall u, 0 < re (way u) T + rad (way u) T) -> steady (fun u => wound_by (way u) T).
+Proof.
+  intros P. apply (steady_mult (fun u => atan (im (way u) T / (re (way u) T + rad (way u) T)))); [|apply steady_const].
+  apply steady_atan; auto; [apply steady_im|apply steady_plus; [apply steady_re|apply steady_rad]].
+Qed.
+Lemma steady_turn k : (if Z.eq_dec k 0 then forall u, 0 < re (way u) T + rad (way u) T else forall u, 0 < rad (way u) T - re (way u) T) ->
+  steady (fun u => turn k (way u) T).
+Proof.
+  unfold turn. destruct Z.eq_dec; intros P.
+  - apply (steady_mult (fun u => wound_by (way u) T)); [apply steady_wound, P|apply steady_const].
+  - apply (steady_minus (fun _ => - IZR k * (PI / 2))); [apply steady_const|].
+    apply steady_atan; auto; [apply steady_im|apply steady_minus; [apply steady_rad|apply steady_re]].
+Qed.
+End Way.
+
+(* ---- a ray that misses a triangle never touches it *)
+Lemma missed_aside d x T m h : dot m d <= 0 -> 0 < dot m (vsub (c0 T) x) -> 0 < dot m (vsub (c1 T) x) -> 0 < dot m (vsub (c2 T) x) ->
+  0 <= h -> ~ of_tri (ray x d h) T.
+Proof.
+  intros D A B C H (a & b & c & Pa & Pb & Pc & S & E).
+  assert (F : h * dot m d = a * dot m (vsub (c0 T) x) + b * dot m (vsub (c1 T) x) + c * dot m (vsub (c2 T) x)).
+  { transitivity (dot m (ray x d h) - (a + b + c) * dot m x).
+    - rewrite S. unfold ray, dot, vadd, vscale; cbn [vx vy vz]; ring.
+    - rewrite E. unfold mix, dot, vsub, vadd, vscale; cbn [vx vy vz]; ring. }
+  assert (h * dot m d <= 0) by (rewrite <- (Rmult_0_r h); apply Rmult_le_compat_l; auto).
+  pose proof (Rmult_le_pos _ _ Pa (Rlt_le _ _ A)). pose proof (Rmult_le_pos _ _ Pb (Rlt_le _ _ B)).
+  pose proof (Rmult_le_pos _ _ Pc (Rlt_le _ _ C)).
+  destruct Pa as [Pa|<-]; [pose proof (Rmult_lt_0_compat _ _ Pa A); lra|].
+  destruct Pb as [Pb|<-]; [pose proof (Rmult_lt_0_compat _ _ Pb B); lra|].
+  replace c with 1 in * by lra. lra.
+Qed.
+Section Missed.
+Variables (x d : V) (T : tri) (h : R).
+Let u := vsub (c0 T) x. Let v := vsub (c1 T) x. Let w := vsub (c2 T) x.
+Hypothesis Hp : 0 <= h.
+(* shares of a point on the ray are to each other as the three determinants *)
+Lemma shares a b c : a + b + c = 1 -> ray x d h = mix a b c T ->
+  b * det d u v = c * det d w u /\ a * det d u v = c * det d v w /\ a * det d w u = b * det d v w /\
+  c * det u v w = h * det d u v /\ a * det u v w = h * det d v w /\ b * det u v w = h * det d w u.
+Proof.
+  intros S E. assert (F : vscale h d = vadd (vscale a u) (vadd (vscale b v) (vscale c w))).
+  { transitivity (vsub (ray x d h) (vscale (a + b + c) x)).
+    - rewrite S. apply V_eq; unfold ray, vsub, vadd, vscale; cbn [vx vy vz]; ring.
+    - rewrite E. apply V_eq; unfold mix, u, v, w, vsub, vadd, vscale; cbn [vx vy vz]; ring. }
+  clearbody u v w. pose proof (fun p q => f_equal (det p q) F) as G.
+  assert (Lin : forall p q, det p q (vadd (vscale a u) (vadd (vscale b v) (vscale c w))) = a * det p q u + b * det p q v + c * det p q w)
+    by (intros; unfold det, dot, cross, vadd, vscale; cbn [vx vy vz]; ring).
+  assert (Ld : forall p q, det p q (vscale h d) = h * det p q d) by (intros; unfold det, dot, cross, vscale; cbn [vx vy vz]; ring).
+  assert (Cyc : forall p q r, det p q r = det q r p) by (intros; unfold det, dot, cross; cbn [vx vy vz]; ring).
+  assert (Sw : forall p q r, det p q r = - det p r q) by (intros; unfold det, dot, cross; cbn [vx vy vz]; ring).
+  assert (Z0 : forall p q, det p q q = 0) by (intros; unfold det, dot, cross; cbn [vx vy vz]; ring).
+  assert (Z1 : forall p q, det p q p = 0) by (intros; unfold det, dot, cross; cbn [vx vy vz]; ring).
+  pose proof (G d u) as G1. pose proof (G d v) as G2. pose proof (G d w) as G3.
+  pose proof (G u v) as G4. pose proof (G v w) as G5. pose proof (G w u) as G6. clear G.
+  rewrite Lin, Ld, ?Z0, ?Z1 in G1, G2, G3, G4, G5, G6.
+  rewrite (Sw d u w) in G1. rewrite (Sw d v u) in G2. rewrite (Sw d w v) in G3.
+  rewrite <- (Cyc d u v) in G4. rewrite <- (Cyc d v w), <- (Cyc u v w) in G5. rewrite <- (Cyc d w u), (Cyc w u v) in G6.
+  repeat split; lra.
+Qed.
+Lemma missed_beside : det d u v * det d v w < 0 \/ det d v w * det d w u < 0 \/ det d w u * det d u v < 0 -> ~ of_tri (ray x d h) T.
+Proof.
+  intros O (a & b & c & A & B & C & S & E). destruct (shares a b c S E) as (E1 & E2 & E3 & _). clear E.
+  assert (P : forall p q r s, 0 <= p -> 0 <= q -> p * r = q * s -> r * s < 0 -> p = 0 /\ q = 0).
+  { intros p q r s P Q F N. destruct P as [P|<-], Q as [Q|<-]; auto; exfalso.
+    - pose proof (Rmult_lt_0_compat _ _ P Q). assert (p * r * (q * s) = p * q * (r * s)) by ring.
+      rewrite F in H0. pose proof (Rle_0_sqr (q * s)). unfold Rsqr in *. assert (0 < p * q * - (r * s)) by (apply Rmult_lt_0_compat; lra). lra.
+    - rewrite Rmult_0_l in F. apply Rmult_integral in F. destruct F as [->| ->]; lra.
+    - rewrite Rmult_0_l in F. symmetry in F. apply Rmult_integral in F. destruct F as [->| ->]; lra. }
+  assert (N : forall p q, p * q < 0 -> p <> 0 /\ q <> 0) by (intros p q L; split; intros ->; lra).
+  destruct O as [O|[O|O]]; destruct (N _ _ O) as [N1 N2].
+  - destruct (P a c _ _ A C E2 O) as [-> ->]. rewrite Rmult_0_l in E1. apply Rmult_integral in E1. destruct E1; lra.
+  - destruct (P b a (det d v w) (det d w u)) as [-> ->]; auto. rewrite Rmult_0_l in E2. symmetry in E2. apply Rmult_integral in E2. destruct E2; lra.
+  - destruct (P c b (det d w u) (det d u v)) as [-> ->]; auto. rewrite Rmult_0_l in E2. apply Rmult_integral in E2. destruct E2; lra.
+Qed.
+Lemma missed_behind : (let vol := det u v w in det d u v * vol < 0 /\ det d v w * vol < 0 /\ det d w u * vol < 0) -> ~ of_tri (ray x d h) T.
+Proof.
+  intros (O1 & O2 & O3) (a & b & c & A & B & C & S & E). destruct (shares a b c S E) as (_ & _ & _ & E1 & E2 & E3). clear E.
+  set (vol := det u v w) in *. assert (N : vol <> 0) by (intros N; rewrite N in O1; lra). apply Rsqr_pos_lt in N. unfold Rsqr in N.
+  assert (P : forall p r, p * vol = h * r -> r * vol < 0 -> p <= 0).
+  { intros p r F L. destruct (Rle_dec p 0) as [|Q]; auto. exfalso. assert (0 < p * (vol * vol)) by (apply Rmult_lt_0_compat; lra).
+    assert (0 <= h * - (r * vol)) by (apply Rmult_le_pos; lra). assert (p * (vol * vol) = h * (r * vol)) by (rewrite <- Rmult_assoc, F; ring). lra. }
+  pose proof (P _ _ E1 O1). pose proof (P _ _ E2 O2). pose proof (P _ _ E3 O3). lra.
+Qed.
+End Missed.
