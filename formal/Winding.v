@@ -3,12 +3,9 @@
    never touches it; 0 about a point with a way out; and the number of crossings of a ray. No topology is taken for granted. *)
 From Coq Require Import Reals Lra Lia Psatz List ZArith Permutation.
 From Coquelicot Require Import Coquelicot.
-From Svcd Require Export Inside.
+From Svcd Require Export Solid.
 Import ListNotations.
 Local Open Scope R_scope.
-
-Definition image (f : zv -> V) T := mkTri (f (za T)) (f (zb T)) (f (zc T)).
-Definition touches x (l : list tri) := exists T, In T l /\ of_tri x T.
 
 (* `balanced` can be computed: only edges that there are have to be counted *)
 Lemma balanced_by l : (let E := flat_map edges l in
