@@ -2,7 +2,7 @@
    crosses the triangle. *)
 From Coq Require Import Reals Lra Lia Psatz List ZArith.
 From Coquelicot Require Import Coquelicot.
-From Svcd Require Export Inside.
+From Svcd Require Export Solid.
 Import ListNotations.
 Local Open Scope R_scope.
 
@@ -64,12 +64,11 @@ Proof.
 Qed.
 
 (* ---- where the ray goes through a triangle *)
-Definition re_of a b c := norm a * norm b * norm c + dot a b * norm c + dot b c * norm a + dot c a * norm b.
 Lemma norm2 a : norm a * norm a = dot a a.
 Proof. apply sqrt_sqrt, dot_pos. Qed.
-Lemma off_edge d a b : det d a b <> 0 -> 0 < norm a * norm b + dot a b.
+Lemma edge_passed d a b : det d a b <> 0 -> off_edge a b.
 Proof.
-  intros N. assert (W : 0 < dot (cross a b) (cross a b)).
+  unfold off_edge. intros N. assert (W : 0 < dot (cross a b) (cross a b)).
   { destruct (dot_pos (cross a b)) as [W|W]; auto. exfalso. apply N. pose proof (cauchy d (cross a b)) as C. unfold norm in C at 2.
     rewrite <- W, sqrt_0, Rmult_0_r in C. fold (det d a b) in C. destruct (Req_dec (det d a b) 0); auto.
     pose proof (Rabs_pos_lt _ H). lra. }
@@ -79,9 +78,9 @@ Proof.
   { apply Rsqr_lt_abs_0. unfold Rsqr. replace (_ * _ * (_ * _)) with (norm a * norm a * (norm b * norm b)) by ring. rewrite !norm2. lra. }
   rewrite (Rabs_pos_eq (norm a * norm b)) in S by (apply Rmult_le_pos; auto). apply Rabs_lt_between in S. lra.
 Qed.
-Lemma off_edge_pos a b : 0 < norm a * norm b + dot a b -> 0 < norm a /\ 0 < norm b.
+Lemma off_edge_pos a b : off_edge a b -> 0 < norm a /\ 0 < norm b.
 Proof.
-  intros N. pose proof (norm_pos a). pose proof (norm_pos b). pose proof (cauchy a b) as C. apply Rabs_le_between in C.
+  unfold off_edge. intros N. pose proof (norm_pos a). pose proof (norm_pos b). pose proof (cauchy a b) as C. apply Rabs_le_between in C.
   assert (P : 0 < norm a * norm b) by lra. split; [destruct H as [|E]|destruct H0 as [|E]]; auto; rewrite <- E in P; lra.
 Qed.
 Lemma three_sides p q t : 0 < p -> 0 < q -> 0 < t -> t * t - p * p - q * q + 2 * p * q > 0 -> p - q < t /\ q - p < t.
@@ -90,7 +89,7 @@ Proof.
   rewrite (Rabs_pos_eq t) in A by lra. apply Rabs_lt_between in A. lra.
 Qed.
 Lemma re_within a b c A B C : 0 < A -> 0 < B -> 0 < C -> vadd (vscale A a) (vadd (vscale B b) (vscale C c)) = mkV 0 0 0 ->
-  0 < norm a * norm b + dot a b -> 0 < norm b * norm c + dot b c -> 0 < norm c * norm a + dot c a -> re_of a b c < 0.
+  off_edge a b -> off_edge b c -> off_edge c a -> dee a b c < 0.
 Proof.
   intros PA PB PC S Oab Obc Oca. destruct (off_edge_pos _ _ Oab) as [Na Nb], (off_edge_pos _ _ Obc) as [_ Nc].
   assert (X : A * vx a + B * vx b + C * vx c = 0) by (apply (f_equal vx) in S; simpl in S; lra).
@@ -121,20 +120,20 @@ Proof.
   assert (Q3 : C * A * (norm c * norm a) = t * p) by (unfold p, t; ring).
   rewrite Rmult_plus_distr_l in T1, T2, T3.
   destruct (three_sides p q t); auto; [lra|]. destruct (three_sides q t p); auto; [lra|]. clear D K Da Db Dc Fa Fb Fc.
-  assert (R : 2 * (A * B * C * re_of a b c) = - ((p + q - t) * (q + t - p) * (t + p - q))).
+  assert (R : 2 * (A * B * C * dee a b c) = - ((p + q - t) * (q + t - p) * (t + p - q))).
   { transitivity (2 * p * q * t + 2 * (A * B * dot a b) * t + 2 * (B * C * dot b c) * p + 2 * (C * A * dot c a) * q).
-    - unfold re_of, p, q, t. ring.
+    - unfold dee, p, q, t. ring.
     - rewrite E1, E2, E3. ring. }
   assert (0 < (p + q - t) * (q + t - p) * (t + p - q)) by (repeat apply Rmult_lt_0_compat; lra).
   assert (P3 : 0 < A * B * C) by (repeat apply Rmult_lt_0_compat; auto).
-  destruct (Rlt_dec (re_of a b c) 0) as [|N]; auto. exfalso.
-  assert (0 <= A * B * C * re_of a b c) by (apply Rmult_le_pos; lra). lra.
+  destruct (Rlt_dec (dee a b c) 0) as [|N]; auto. exfalso.
+  assert (0 <= A * B * C * dee a b c) by (apply Rmult_le_pos; lra). lra.
 Qed.
 
 (* ---- the complex number of a triangle, and the angle as it goes on: k is how often the ray crosses it *)
-Definition re x T := re_of (vsub (c0 T) x) (vsub (c1 T) x) (vsub (c2 T) x).
+Definition re x T := dee (vsub (c0 T) x) (vsub (c1 T) x) (vsub (c2 T) x).
 Definition im x T := det (vsub (c0 T) x) (vsub (c1 T) x) (vsub (c2 T) x).
-Definition rad x T := sqrt (re x T * re x T + im x T * im x T).
+Definition rad x T := arr (vsub (c0 T) x) (vsub (c1 T) x) (vsub (c2 T) x).
 Definition turn k x T := if Z.eq_dec k 0 then wound_by x T * PI else - IZR k * (PI / 2) - atan (im x T / (rad x T - re x T)).
 Lemma rad2 x T : rad x T * rad x T = re x T * re x T + im x T * im x T.
 Proof. apply sqrt_sqrt. pose proof (Rle_0_sqr (re x T)). pose proof (Rle_0_sqr (im x T)). unfold Rsqr in *. lra. Qed.
@@ -164,11 +163,10 @@ Lemma ray_im h : k * im (ray x d h) T = k * det u v w - h * (k * det d u v + k *
 Proof. unfold im, ray, u, v, w, det, dot, cross, vsub, vadd, vscale; cbn [vx vy vz]; ring. Qed.
 Lemma ray_det h a b : det d (vsub a (ray x d h)) (vsub b (ray x d h)) = det d (vsub a x) (vsub b x).
 Proof. unfold ray, det, dot, cross, vsub, vadd, vscale; cbn [vx vy vz]; ring. Qed.
-Lemma ray_edges h : let a := vsub (c0 T) (ray x d h) in let b := vsub (c1 T) (ray x d h) in let c := vsub (c2 T) (ray x d h) in
-  0 < norm a * norm b + dot a b /\ 0 < norm b * norm c + dot b c /\ 0 < norm c * norm a + dot c a.
+Lemma ray_edges h : off_edges (ray x d h) T.
 Proof.
   assert (N : forall r, 0 < k * r -> r <> 0) by (intros r P ->; lra).
-  intros a b c. split; [|split]; apply (off_edge d); unfold a, b, c; rewrite ray_det; auto.
+  split; [|split]; apply (edge_passed d); rewrite ray_det; auto.
 Qed.
 Lemma ray_re h : im (ray x d h) T = 0 -> re (ray x d h) T < 0.
 Proof.
@@ -213,14 +211,15 @@ Lemma steady_from p : steadyV (fun u => vsub p (way u)).
 Proof. apply steady_vsub; auto. apply steady_fixed. Qed.
 Lemma steady_re : steady (fun u => re (way u) T).
 Proof.
-  unfold re, re_of. pose proof (fun p => steady_norm _ (steady_from p)). pose proof (fun p q => steady_dot _ _ (steady_from p) (steady_from q)).
+  unfold re, dee. pose proof (fun p => steady_norm _ (steady_from p)). pose proof (fun p q => steady_dot _ _ (steady_from p) (steady_from q)).
   repeat first [apply H|apply H0|apply steady_plus|apply steady_mult].
 Qed.
 Lemma steady_im : steady (fun u => im (way u) T).
 Proof. unfold im, det. apply steady_dot; [|apply steady_cross]; apply steady_from. Qed.
 Lemma steady_rad : steady (fun u => rad (way u) T).
 Proof.
-  pose proof steady_re. pose proof steady_im. apply steady_root; [apply steady_plus; apply steady_mult; auto|].
+  pose proof steady_re. pose proof steady_im. change (steady (fun u => sqrt (re (way u) T * re (way u) T + im (way u) T * im (way u) T))).
+  apply steady_root; [apply steady_plus; apply steady_mult; auto|].
   intros u. rewrite <- rad2. apply Rle_0_sqr.
 Qed.
 Lemma steady_wound : (forall u, 0 < re (way u) T + rad (way u) T) -> steady (fun u => wound_by (way u) T).
@@ -307,3 +306,86 @@ Proof.
   pose proof (P _ _ E1 O1). pose proof (P _ _ E2 O2). pose proof (P _ _ E3 O3). lra.
 Qed.
 End Missed.
+
+(* ---- one triangle, all along the ray *)
+Definition onward u := / 2 * (u + Rabs u).   (* 0, from 0 on u *)
+Lemma onward_pos u : 0 <= onward u.
+Proof. unfold onward, Rabs. destruct Rcase_abs; lra. Qed.
+Lemma onward_is u : 0 <= u -> onward u = u.
+Proof. unfold onward, Rabs. destruct Rcase_abs; lra. Qed.
+Lemma ray_0 x d : ray x d 0 = x.
+Proof. apply V_eq; unfold ray, vadd, vscale; cbn [vx vy vz]; ring. Qed.
+Lemma steady_ray x d : steadyV (fun u => ray x d (onward u)).
+Proof. apply steady_vadd; [apply steady_fixed|]. apply steady_vscale; [unfold onward; steady|apply steady_fixed]. Qed.
+Record follows d x T k := {
+  goes_off h : 0 <= h -> off_edges (ray x d h) T /\ angle_of (ray x d h) T (turn k (ray x d h) T);
+  goes_on : steady (fun u => turn k (ray x d (onward u)) T);
+  goes_from : turn k x T = wound_by x T * PI - IZR k * PI;
+  goes_to : exists H, forall h, H <= h -> turn k (ray x d h) T = wound_by (ray x d h) T * PI }.
+Lemma follows_missed d x T : (forall h, 0 <= h -> ~ of_tri (ray x d h) T) -> follows d x T 0.
+Proof.
+  intros N. assert (E : forall y, turn 0 y T = wound_by y T * PI) by reflexivity. split.
+  - intros h H. rewrite E. split; [apply off_tri_edges|apply turns]; apply N, H.
+  - apply steady_turn; [apply steady_ray|]. intros u. apply (heart (ray x d (onward u)) T), N, onward_pos.
+  - rewrite E. ring.
+  - exists 0. intros h _. apply E.
+Qed.
+Lemma follows_crossed d x T k : (k = 1 \/ k = -1)%Z -> (let u := vsub (c0 T) x in let v := vsub (c1 T) x in let w := vsub (c2 T) x in
+  0 < IZR k * det d u v /\ 0 < IZR k * det d v w /\ 0 < IZR k * det d w u /\ 0 < IZR k * det u v w) -> follows d x T k.
+Proof.
+  intros K (A & B & C & W). assert (KR : IZR k = 1 \/ IZR k = -1) by (destruct K as [-> | ->]; auto).
+  assert (E : forall y, turn k y T = - IZR k * (PI / 2) - atan (im y T / (rad y T - re y T)))
+    by (intros y; unfold turn; destruct Z.eq_dec; [destruct K; lia|reflexivity]).
+  pose proof (ray_off x d T (IZR k) A B C) as Off. split.
+  - intros h H. split; [apply (ray_edges x d T (IZR k)); auto|]. rewrite E. destruct (Off h).
+    apply half_angle_turned; auto. apply rad2.
+  - apply steady_turn; [apply steady_ray|]. destruct Z.eq_dec; [destruct K; lia|]. intros u. apply Off.
+  - rewrite E. pose proof (Off 0) as O. rewrite ray_0 in O. replace (wound_by x T * PI) with (atan (im x T / (re x T + rad x T)))
+      by (rewrite wound_is; unfold im, re, rad; cbv zeta; field; apply PI_neq0).
+    apply half_angle_before; [exact KR|apply rad2|apply O|exact W].
+  - destruct (ray_far x d T (IZR k) A B C) as (H & F). exists H. intros h L. rewrite E.
+    replace (wound_by (ray x d h) T * PI) with (atan (im (ray x d h) T / (re (ray x d h) T + rad (ray x d h) T)))
+      by (rewrite wound_is; unfold im, re, rad; cbv zeta; field; apply PI_neq0).
+    apply half_angle_same; [exact KR|apply rad2|apply Off|apply F, L].
+Qed.
+
+(* ---- all triangles *)
+Lemma whole_steady f s e : steady f -> (forall u, exists k : Z, f u = IZR k * PI) -> f s = f e.
+Proof.
+  intros F W. destruct (W s) as (m & M), (W e) as (n & N). pose proof PI_RGT_0 as P.
+  assert (L : forall a b i j, f a = IZR i * PI -> f b = IZR j * PI -> ~ (i < j)%Z).
+  { intros a b i j A B L. destruct (IVT_gen f a b ((IZR i + / 2) * PI) F) as (u & _ & U).
+    - apply Zlt_le_succ, IZR_le in L. unfold Z.succ in L. rewrite plus_IZR in L. rewrite A, B.
+      rewrite Rmin_left, Rmax_right by (apply Rmult_le_compat_r; lra). split; apply Rmult_le_compat_r; lra.
+    - destruct (W u) as (k & E). rewrite E in U. apply Rmult_eq_reg_r in U; [|lra].
+      assert (V : IZR (2 * k) = IZR (2 * i + 1)) by (rewrite plus_IZR, !mult_IZR; lra). apply eq_IZR in V. lia. }
+  destruct (Z.lt_trichotomy m n) as [H|[H|H]]; [destruct (L s e m n); auto|subst; lra|destruct (L e s n m); auto].
+Qed.
+Lemma from_some_on {A} (l : list A) (P : A -> R -> Prop) : (forall a, In a l -> exists H, forall h, H <= h -> P a h) ->
+  exists H, forall h, H <= h -> forall a, In a l -> P a h.
+Proof.
+  induction l as [|b l IH]; intros E; [exists 0; intros h _ a []|]. destruct (E b (or_introl eq_refl)) as (H & B).
+  destruct IH as (H' & B'); [intros a I; apply E; right; exact I|]. exists (Rmax H H'). intros h L.
+  pose proof (Rmax_l H H'). pose proof (Rmax_r H H'). intros a [<-|I]; [apply B|apply B'; auto]; lra.
+Qed.
+Theorem followed f l x d (count : ztri -> Z) : balanced l -> (forall T, In T l -> follows d x (image f T) (count T)) ->
+  exists H, forall h, H <= h -> winding x (map (image f) l) =
+    winding (ray x d h) (map (image f) l) + IZR (fold_right (fun T n => count T + n)%Z 0%Z l).
+Proof.
+  intros B F. set (sum := fun y => fold_right (fun T s => turn (count T) y (image f T) + s) 0 l).
+  assert (S : forall s e, sum (ray x d (onward s)) = sum (ray x d (onward e))).
+  { intros s e. apply (whole_steady (fun u => sum (ray x d (onward u)))).
+    - unfold sum. clear B. induction l as [|T l' IH]; simpl; [steady|]. apply steady_plus; [|apply IH; intros; apply F; right; auto].
+      apply (F T). left; reflexivity.
+    - intros u. apply (angles_whole f l (ray x d (onward u))); auto; intros T I;
+        apply (goes_off _ _ _ _ (F T I)), onward_pos. }
+  assert (S0 : sum x = (winding x (map (image f) l) - IZR (fold_right (fun T n => count T + n)%Z 0%Z l)) * PI).
+  { unfold sum, winding. clear B S sum. induction l as [|T l' IH]; [simpl; ring|]. cbn [map fold_right].
+    rewrite IH by (intros; apply F; right; auto). rewrite (goes_from _ _ _ _ (F T (or_introl eq_refl))), plus_IZR. ring. }
+  destruct (from_some_on l (fun T h => turn (count T) (ray x d h) (image f T) = wound_by (ray x d h) (image f T) * PI)) as (H & E).
+  { intros T I. apply (F T I). }
+  exists (Rmax 0 H). intros h L. pose proof (Rmax_l 0 H). pose proof (Rmax_r 0 H). assert (Sh : sum (ray x d h) = winding (ray x d h) (map (image f) l) * PI).
+  { specialize (E h ltac:(lra)). unfold sum, winding. clear - E. induction l as [|T l' IH]; [simpl; ring|]. cbn [map fold_right].
+    rewrite IH by (intros; apply E; right; auto). rewrite (E T (or_introl eq_refl)). ring. }
+  specialize (S 0 h). rewrite !onward_is, ray_0, S0, Sh in S by lra. apply Rmult_eq_reg_r in S; [lra|apply PI_neq0].
+Qed.
