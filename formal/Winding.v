@@ -4,6 +4,7 @@
 From Coq Require Import Reals Lra Lia Psatz List ZArith Permutation.
 From Coquelicot Require Import Coquelicot.
 From Svcd Require Export Solid.
+From Svcd Require Import Ray_law.
 Import ListNotations.
 Local Open Scope R_scope.
 
@@ -53,7 +54,27 @@ Inductive crosses (d x : V) (T : tri) : Z -> Prop :=
   | down : (let u := vsub (c0 T) x in let v := vsub (c1 T) x in let w := vsub (c2 T) x in
       det d u v < 0 /\ det d v w < 0 /\ det d w u < 0 /\ det u v w < 0) -> crosses d x T (-1).
 
+Lemma crosses_follows d x T k : crosses d x T k -> follows d x T k.
+Proof.
+  intros [m D A B C|O|O|(A & B & C & V)|(A & B & C & V)].
+  - apply follows_missed. intros h. apply (missed_aside d x T m h D A B C).
+  - apply follows_missed. intros h _. apply missed_beside, O.
+  - apply follows_missed. intros h H. apply missed_behind; auto.
+  - apply follows_crossed; [auto|]. cbv zeta. lra.
+  - apply follows_crossed; [auto|]. cbv zeta. lra.
+Qed.
 Theorem winding_ray f l x d (count : ztri -> Z) : balanced l -> 0 < norm d ->
   (forall T, In T l -> crosses d x (image f T) (count T)) ->
   winding x (map (image f) l) = IZR (fold_right (fun T n => count T + n)%Z 0%Z l).
-Proof. Admitted.
+Proof.
+  intros B D C. assert (D2 : 0 < dot d d) by (rewrite <- norm2; apply Rmult_lt_0_compat; exact D).
+  destruct (followed f l x d count B) as (H & F); [intros T I; apply crosses_follows, C, I|].
+  destruct (from_some_on l (fun T h => forall p, In p [za T; zb T; zc T] -> 0 < dot (vscale (-1) d) (vsub (f p) (ray x d h)))) as (H' & A).
+  { intros T _. apply (from_some_on [za T; zb T; zc T] (fun p h => 0 < dot (vscale (-1) d) (vsub (f p) (ray x d h)))).
+    intros p _. exists (dot d (vsub (f p) x) / dot d d + 1). intros h L.
+    replace (dot _ _) with (dot d d * (h - dot d (vsub (f p) x) / dot d d)).
+    - apply Rmult_lt_0_compat; lra.
+    - transitivity (h * dot d d - dot d (vsub (f p) x)); [field; lra|]. unfold ray, dot, vsub, vadd, vscale; cbn [vx vy vz]; ring. }
+  rewrite (F (Rmax H H')), (winding_aside f l _ (vscale (-1) d)); [ring|exact B| |apply Rmax_l].
+  intros T p I P. apply (A (Rmax H H') (Rmax_r H H') T I p P).
+Qed.
