@@ -2,7 +2,7 @@
    is there a `free_way`. So `never_inside` does say that a body is not in a box. *)
 From Coq Require Import Reals Lra List ZArith QArith Qreals.
 From Coquelicot Require Import Coquelicot.
-From Svcd Require Import Inside.
+From Svcd Require Import Winding.
 Import ListNotations.
 Local Open Scope R_scope.
 
@@ -85,4 +85,23 @@ Proof.
   - destruct (on_side (way w)) as (F & I & O); [lra|]. apply (Clear w Wl).
     exists (mkQP 0 1 still still), F, (way w). split; [left; reflexivity|]. split; [unfold Q2R; simpl; lra|].
     split; [exact I|split; [exact O|]]. symmetry. apply still_place.
+Qed.
+
+(* ---- a box whose triangles are all counter-clockwise as seen from outside winds once about each point within, and about none
+   without *)
+Definition shut := mkBody 1 [
+  mkZT (mkZ 1 (-1) (-1)) (mkZ 1 1 (-1)) (mkZ 1 1 1); mkZT (mkZ 1 (-1) (-1)) (mkZ 1 1 1) (mkZ 1 (-1) 1);
+  mkZT (mkZ (-1) (-1) (-1)) (mkZ (-1) 1 1) (mkZ (-1) 1 (-1)); mkZT (mkZ (-1) (-1) (-1)) (mkZ (-1) (-1) 1) (mkZ (-1) 1 1);
+  mkZT (mkZ (-1) 1 (-1)) (mkZ 1 1 1) (mkZ 1 1 (-1)); mkZT (mkZ (-1) 1 (-1)) (mkZ (-1) 1 1) (mkZ 1 1 1);
+  mkZT (mkZ (-1) (-1) (-1)) (mkZ 1 (-1) (-1)) (mkZ 1 (-1) 1); mkZT (mkZ (-1) (-1) (-1)) (mkZ 1 (-1) 1) (mkZ (-1) (-1) 1);
+  mkZT (mkZ (-1) (-1) 1) (mkZ 1 (-1) 1) (mkZ 1 1 1); mkZT (mkZ (-1) (-1) 1) (mkZ 1 1 1) (mkZ (-1) 1 1);
+  mkZT (mkZ (-1) (-1) (-1)) (mkZ 1 1 (-1)) (mkZ 1 (-1) (-1)); mkZT (mkZ (-1) (-1) (-1)) (mkZ (-1) 1 (-1)) (mkZ 1 1 (-1))]
+  1 [mkQP 0 1 still still].
+Lemma shut_balanced : balanced (tris shut).
+Proof. apply balanced_by. cbv zeta. repeat (apply List.Forall_cons; [reflexivity|]). apply List.Forall_nil. Qed.
+Lemma shut_winds t x n : 0 <= t <= 1 -> winding x (map (image (pointR 1)) (tris shut)) = n -> winds shut t x n.
+Proof.
+  intros T E. exists (mkQP 0 1 still still), (tris shut). split; [left; reflexivity|]. split; [unfold Q2R; simpl; lra|]. split.
+  - exists (fun _ => true). split; [reflexivity|]. intros U _. split; auto. intros _ W p q _ _. apply shut_balanced.
+  - rewrite <- E. f_equal. apply map_ext. intros U. unfold placed. change (size shut) with 1%Q. rewrite !still_place. reflexivity.
 Qed.

@@ -11,10 +11,11 @@ build/formal/%.vo: formal/%.v
 build/formal/Answers.vo: build/formal/Statement.vo
 build/formal/Geometry.vo: build/formal/Answers.vo
 build/formal/Inside.vo: build/formal/Geometry.vo
-build/formal/Solid.vo build/formal/Checker.vo build/formal/Box.vo: build/formal/Inside.vo
+build/formal/Solid.vo build/formal/Checker.vo: build/formal/Inside.vo
 build/formal/Ray_law.vo: build/formal/Solid.vo
 build/formal/Winding.vo: build/formal/Ray_law.vo
 build/formal/Meeting.vo: build/formal/Checker.vo
+build/formal/Box.vo: build/formal/Winding.vo
 build/formal/Closed.vo: build/formal/Meeting.vo build/formal/Winding.vo
 build/formal/Rays.vo: build/formal/Closed.vo
 build/formal/Main.vo: build/formal/Rays.vo
