@@ -105,3 +105,36 @@ Proof.
   - exists (fun _ => true). split; [reflexivity|]. intros U _. split; auto. intros _ W p q _ _. apply shut_balanced.
   - rewrite <- E. f_equal. apply map_ext. intros U. unfold placed. change (size shut) with 1%Q. rewrite !still_place. reflexivity.
 Qed.
+Theorem winds_outside t x : 0 <= t <= 1 -> 1 < width x -> winds shut t x 0.
+Proof.
+  intros T W. apply shut_winds; auto. pose proof (width_is x) as (_ & _ & _ & F).
+  assert (E : exists m, (forall T p, In T (tris shut) -> In p [za T; zb T; zc T] -> 0 < dot m (vsub (pointR 1 p) x))).
+  { assert (A : forall r, 1 < Rabs r -> 1 < r \/ r < -1) by (intros r; unfold Rabs; destruct Rcase_abs; lra).
+    assert (C : forall m, (forall a b c, (a = 1 \/ a = -1) -> (b = 1 \/ b = -1) -> (c = 1 \/ c = -1) -> 0 < dot m (vsub (mkV a b c) x)) ->
+      forall T p, In T (tris shut) -> In p [za T; zb T; zc T] -> 0 < dot m (vsub (pointR 1 p) x)).
+    { intros m H U p I P. cbn [tris shut In] in I. repeat (destruct I as [<-|I]); try contradiction; cbn [za zb zc In] in P;
+        repeat (destruct P as [<-|P]); try contradiction; unfold pointR; cbn [zx zy zz]; apply H; lra. }
+    destruct F as [F|[F|F]]; rewrite F in W; apply A in W as [W|W]; [exists (mkV (-1) 0 0)|exists (mkV 1 0 0)|exists (mkV 0 (-1) 0)|
+      exists (mkV 0 1 0)|exists (mkV 0 0 (-1))|exists (mkV 0 0 1)]; apply C; intros a b c A' B' C'; unfold dot, vsub; cbn [vx vy vz]; lra. }
+  destruct E as (m & E). apply (winding_aside (pointR 1) (tris shut) x m shut_balanced E).
+Qed.
+Definition front := mkZT (mkZ 1 (-1) (-1)) (mkZ 1 1 (-1)) (mkZ 1 1 1).
+Lemma front_dec T : {front = T} + {front <> T}.
+Proof. decide equality; apply zv_dec. Defined.
+Theorem winds_inside t x : 0 <= t <= 1 -> width x < 1 -> winds shut t x 1.
+Proof.
+  intros T W. apply shut_winds; auto. pose proof (width_is x) as (X & Y & Z & _). destruct x as [x y z]. cbn [vx vy vz] in *.
+  assert (Lx : -1 < x < 1) by (apply Rabs_lt_between; lra). assert (Ly : -1 < y < 1) by (apply Rabs_lt_between; lra).
+  assert (Lz : -1 < z < 1) by (apply Rabs_lt_between; lra). clear X Y Z W.
+  (* to the middle of the triangle in front *)
+  set (d := mkV (1 - x) (/ 3 - y) (- / 3 - z)).
+  assert (P : forall r s, 0 < r -> 0 < s -> 0 < r * s) by apply Rmult_lt_0_compat.
+  rewrite (winding_ray (pointR 1) (tris shut) _ d (fun T => if front_dec T then 1%Z else 0%Z)); [reflexivity|apply shut_balanced| |].
+  - apply sqrt_lt_R0. unfold dot, d; cbn [vx vy vz]. pose proof (P (1 - x) (1 - x)). pose proof (Rle_0_sqr (/ 3 - y)).
+    pose proof (Rle_0_sqr (- / 3 - z)). unfold Rsqr in *. lra.
+  - intros U I. cbn [tris shut In] in I.
+    repeat (destruct I as [<-|I]; [|]); try contradiction; destruct front_dec as [E|E]; try discriminate E; try (contradiction E; reflexivity);
+      unfold image, pointR; cbn [za zb zc zx zy zz].
+    + apply up. unfold det, dot, cross, vsub, d; cbn [vx vy vz c0 c1 c2]. repeat split.
+      all: match goal with |- 0 < ?r => idtac r end.
+Admitted.
