@@ -132,9 +132,26 @@ Proof.
   rewrite (winding_ray (pointR 1) (tris shut) _ d (fun T => if front_dec T then 1%Z else 0%Z)); [reflexivity|apply shut_balanced| |].
   - apply sqrt_lt_R0. unfold dot, d; cbn [vx vy vz]. pose proof (P (1 - x) (1 - x)). pose proof (Rle_0_sqr (/ 3 - y)).
     pose proof (Rle_0_sqr (- / 3 - z)). unfold Rsqr in *. lra.
-  - intros U I. cbn [tris shut In] in I.
-    repeat (destruct I as [<-|I]; [|]); try contradiction; destruct front_dec as [E|E]; try discriminate E; try (contradiction E; reflexivity);
-      unfold image, pointR; cbn [za zb zc zx zy zz].
-    + apply up. unfold det, dot, cross, vsub, d; cbn [vx vy vz c0 c1 c2]. repeat split.
-      all: match goal with |- 0 < ?r => idtac r end.
-Admitted.
+  - assert (Px : 0 < (1 - x) * (1 - x)) by (apply P; lra).
+    assert (Py : 0 < (1 - x) * (1 - y)) by (apply P; lra). assert (Py' : 0 < (1 - x) * (1 + y)) by (apply P; lra).
+    assert (Pz : 0 < (1 - x) * (1 - z)) by (apply P; lra). assert (Pz' : 0 < (1 - x) * (1 + z)) by (apply P; lra).
+    assert (Q : forall r, r <= 0 \/ 0 < r /\ 0 < r * (1 + x)) by (intros r; destruct (Rlt_dec 0 r); [right; split; [|apply P]; lra|left; lra]).
+    assert (A : forall m U, dot m d <= 0 -> 0 < dot m (vsub (c0 U) (mkV x y z)) -> 0 < dot m (vsub (c1 U) (mkV x y z)) ->
+      0 < dot m (vsub (c2 U) (mkV x y z)) -> crosses d (mkV x y z) U 0) by (intros m U; apply (aside _ _ _ m)).
+    Ltac at_m A a b c := apply (A (mkV a b c)); unfold image, pointR, dot, vsub; cbn [vx vy vz c0 c1 c2 za zb zc zx zy zz]; lra.
+    intros U I. cbn [tris shut In] in I. subst d.
+    destruct I as [<-|[<-|[<-|[<-|[<-|[<-|[<-|[<-|[<-|[<-|[<-|[<-|[]]]]]]]]]]]]]; destruct front_dec as [E|E]; try discriminate E;
+      try (contradiction E; reflexivity); clear E.
+    + apply up. unfold image, pointR, det, dot, cross, vsub; cbn [vx vy vz c0 c1 c2 za zb zc zx zy zz]. repeat split; lra.
+    + at_m A (z - y + / 3) (x - 1) (1 - x).
+    + at_m A (-1) 0 0.
+    + at_m A (-1) 0 0.
+    + destruct (Q (/ 3 - y)); [at_m A 0 1 0|at_m A (y - / 3) (1 - x) 0].
+    + destruct (Q (/ 3 - y)); [at_m A 0 1 0|at_m A (y - / 3) (1 - x) 0].
+    + destruct (Q (y - / 3)); [at_m A 0 (-1) 0|at_m A (/ 3 - y) (x - 1) 0].
+    + destruct (Q (y - / 3)); [at_m A 0 (-1) 0|at_m A (/ 3 - y) (x - 1) 0].
+    + destruct (Q (- / 3 - z)); [at_m A 0 0 1|at_m A (z + / 3) 0 (1 - x)].
+    + destruct (Q (- / 3 - z)); [at_m A 0 0 1|at_m A (z + / 3) 0 (1 - x)].
+    + destruct (Q (z + / 3)); [at_m A 0 0 (-1)|at_m A (- / 3 - z) 0 (x - 1)].
+    + destruct (Q (z + / 3)); [at_m A 0 0 (-1)|at_m A (- / 3 - z) 0 (x - 1)].
+Qed.
