@@ -110,12 +110,14 @@ Proof.
   intros T W. apply shut_winds; auto. pose proof (width_is x) as (_ & _ & _ & F).
   assert (E : exists m, (forall T p, In T (tris shut) -> In p [za T; zb T; zc T] -> 0 < dot m (vsub (pointR 1 p) x))).
   { assert (A : forall r, 1 < Rabs r -> 1 < r \/ r < -1) by (intros r; unfold Rabs; destruct Rcase_abs; lra).
-    assert (C : forall m, (forall a b c, (a = 1 \/ a = -1) -> (b = 1 \/ b = -1) -> (c = 1 \/ c = -1) -> 0 < dot m (vsub (mkV a b c) x)) ->
+    assert (C : forall m, (forall a b c, (a = 1 \/ a = -1) -> (b = 1 \/ b = -1) -> (c = 1 \/ c = -1) ->
+      0 < dot m (vsub (mkV a b c) x)) ->
       forall T p, In T (tris shut) -> In p [za T; zb T; zc T] -> 0 < dot m (vsub (pointR 1 p) x)).
     { intros m H U p I P. cbn [tris shut In] in I. repeat (destruct I as [<-|I]); try contradiction; cbn [za zb zc In] in P;
         repeat (destruct P as [<-|P]); try contradiction; unfold pointR; cbn [zx zy zz]; apply H; lra. }
     destruct F as [F|[F|F]]; rewrite F in W; apply A in W as [W|W]; [exists (mkV (-1) 0 0)|exists (mkV 1 0 0)|exists (mkV 0 (-1) 0)|
-      exists (mkV 0 1 0)|exists (mkV 0 0 (-1))|exists (mkV 0 0 1)]; apply C; intros a b c A' B' C'; unfold dot, vsub; cbn [vx vy vz]; lra. }
+      exists (mkV 0 1 0)|exists (mkV 0 0 (-1))|exists (mkV 0 0 1)]; apply C; intros a b c A' B' C'; unfold dot, vsub;
+        cbn [vx vy vz]; lra. }
   destruct E as (m & E). apply (winding_aside (pointR 1) (tris shut) x m shut_balanced E).
 Qed.
 Definition front := mkZT (mkZ 1 (-1) (-1)) (mkZ 1 1 (-1)) (mkZ 1 1 1).
@@ -129,13 +131,15 @@ Proof.
   (* to the middle of the triangle in front *)
   set (d := mkV (1 - x) (/ 3 - y) (- / 3 - z)).
   assert (P : forall r s, 0 < r -> 0 < s -> 0 < r * s) by apply Rmult_lt_0_compat.
-  rewrite (winding_ray (pointR 1) (tris shut) _ d (fun T => if front_dec T then 1%Z else 0%Z)); [reflexivity|apply shut_balanced| |].
+  rewrite (winding_ray (pointR 1) (tris shut) _ d (fun T => if front_dec T then 1%Z else 0%Z));
+    [reflexivity|apply shut_balanced| |].
   - apply sqrt_lt_R0. unfold dot, d; cbn [vx vy vz]. pose proof (P (1 - x) (1 - x)). pose proof (Rle_0_sqr (/ 3 - y)).
     pose proof (Rle_0_sqr (- / 3 - z)). unfold Rsqr in *. lra.
   - assert (Px : 0 < (1 - x) * (1 - x)) by (apply P; lra).
     assert (Py : 0 < (1 - x) * (1 - y)) by (apply P; lra). assert (Py' : 0 < (1 - x) * (1 + y)) by (apply P; lra).
     assert (Pz : 0 < (1 - x) * (1 - z)) by (apply P; lra). assert (Pz' : 0 < (1 - x) * (1 + z)) by (apply P; lra).
-    assert (Q : forall r, r <= 0 \/ 0 < r /\ 0 < r * (1 + x)) by (intros r; destruct (Rlt_dec 0 r); [right; split; [|apply P]; lra|left; lra]).
+    assert (Q : forall r, r <= 0 \/ 0 < r /\ 0 < r * (1 + x)) by (intros r; destruct (Rlt_dec 0 r); [right; split; [|apply P];
+      lra|left; lra]).
     assert (A : forall m U, dot m d <= 0 -> 0 < dot m (vsub (c0 U) (mkV x y z)) -> 0 < dot m (vsub (c1 U) (mkV x y z)) ->
       0 < dot m (vsub (c2 U) (mkV x y z)) -> crosses d (mkV x y z) U 0) by (intros m U; apply (aside _ _ _ m)).
     Ltac at_m A a b c := apply (A (mkV a b c)); unfold image, pointR, dot, vsub; cbn [vx vy vz c0 c1 c2 za zb zc zx zy zz]; lra.

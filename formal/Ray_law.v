@@ -53,7 +53,8 @@ Lemma half_angle_same k X Y r : k = 1 \/ k = -1 -> r * r = X * X + Y * Y -> 0 < 
   - k * (PI / 2) - atan (Y / (r - X)) = atan (Y / (X + r)).
 Proof.
   intros [-> | ->] E R K.
-  - destruct (half_angle_past X (- Y) r) as (A & B & H); [lra|lra|lra|]. unfold Rdiv in *. rewrite !Ropp_mult_distr_l_reverse, !atan_opp in H. lra.
+  - destruct (half_angle_past X (- Y) r) as (A & B & H); [lra|lra|lra|]. unfold Rdiv in *.
+    rewrite !Ropp_mult_distr_l_reverse, !atan_opp in H. lra.
   - destruct (half_angle_past X Y r) as (A & B & H); lra.
 Qed.
 Lemma half_angle_before k X Y r : k = 1 \/ k = -1 -> r * r = X * X + Y * Y -> 0 < r -> 0 < k * Y ->
@@ -75,12 +76,14 @@ Proof.
   assert (L : dot a a * dot b b = dot a b * dot a b + dot (cross a b) (cross a b)) by (unfold dot, cross; cbn [vx vy vz]; ring).
   pose proof (norm_pos a). pose proof (norm_pos b).
   assert (S : Rabs (dot a b) < Rabs (norm a * norm b)).
-  { apply Rsqr_lt_abs_0. unfold Rsqr. replace (_ * _ * (_ * _)) with (norm a * norm a * (norm b * norm b)) by ring. rewrite !norm2. lra. }
+  { apply Rsqr_lt_abs_0. unfold Rsqr. replace (_ * _ * (_ * _)) with (norm a * norm a * (norm b * norm b)) by ring.
+    rewrite !norm2. lra. }
   rewrite (Rabs_pos_eq (norm a * norm b)) in S by (apply Rmult_le_pos; auto). apply Rabs_lt_between in S. lra.
 Qed.
 Lemma off_edge_pos a b : off_edge a b -> 0 < norm a /\ 0 < norm b.
 Proof.
-  unfold off_edge. intros N. pose proof (norm_pos a). pose proof (norm_pos b). pose proof (cauchy a b) as C. apply Rabs_le_between in C.
+  unfold off_edge. intros N. pose proof (norm_pos a). pose proof (norm_pos b). pose proof (cauchy a b) as C.
+  apply Rabs_le_between in C.
   assert (P : 0 < norm a * norm b) by lra. split; [destruct H as [|E]|destruct H0 as [|E]]; auto; rewrite <- E in P; lra.
 Qed.
 Lemma three_sides p q t : 0 < p -> 0 < q -> 0 < t -> t * t - p * p - q * q + 2 * p * q > 0 -> p - q < t /\ q - p < t.
@@ -105,7 +108,8 @@ Proof.
   { intros v. unfold dot. transitivity (vx v * (A * vx a + B * vx b + C * vx c) + vy v * (A * vy a + B * vy b + C * vy c) +
       vz v * (A * vz a + B * vz b + C * vz c)); [ring|rewrite X, Y, Z; ring]. }
   assert (K : forall v w, dot v w = dot w v) by (intros; unfold dot; ring).
-  pose proof (D a) as Da. pose proof (D b) as Db. pose proof (D c) as Dc. rewrite (K b a) in Db. rewrite (K a c) in Da. rewrite (K c b) in Dc.
+  pose proof (D a) as Da. pose proof (D b) as Db. pose proof (D c) as Dc. rewrite (K b a) in Db. rewrite (K a c) in Da.
+  rewrite (K c b) in Dc.
   assert (Fa : A * (A * dot a a + B * dot a b + C * dot c a) = 0) by (rewrite Da; ring).
   assert (Fb : B * (A * dot a b + B * dot b b + C * dot b c) = 0) by (rewrite Db; ring).
   assert (Fc : C * (A * dot c a + B * dot b c + C * dot c c) = 0) by (rewrite Dc; ring).
@@ -141,9 +145,11 @@ Lemma rad_pos x T : 0 <= rad x T.
 Proof. apply sqrt_pos. Qed.
 Lemma rad_off x T : im x T <> 0 \/ re x T < 0 -> 0 < rad x T /\ 0 < rad x T - re x T.
 Proof.
-  intros H. pose proof (rad_pos x T) as P. pose proof (rad2 x T) as E. pose proof (Rle_0_sqr (im x T)) as I. pose proof (Rle_0_sqr (re x T)) as J.
+  intros H. pose proof (rad_pos x T) as P. pose proof (rad2 x T) as E. pose proof (Rle_0_sqr (im x T)) as I.
+  pose proof (Rle_0_sqr (re x T)) as J.
   assert (N : 0 < rad x T).
-  { destruct P as [|Z]; auto. exfalso. rewrite <- Z in E. unfold Rsqr in *. destruct H as [H|H]; apply Rsqr_pos_lt in H || apply Rlt_not_eq, Rsqr_pos_lt in H;
+  { destruct P as [|Z]; auto. exfalso. rewrite <- Z in E. unfold Rsqr in *.
+    destruct H as [H|H]; apply Rsqr_pos_lt in H || apply Rlt_not_eq, Rsqr_pos_lt in H;
       unfold Rsqr in H; lra. }
   split; [exact N|]. destruct (Rlt_dec (re x T) 0); [lra|]. destruct H as [H|H]; [|contradiction]. apply Rsqr_pos_lt in H.
   assert (A : Rabs (re x T) < Rabs (rad x T)) by (apply Rsqr_lt_abs_0; unfold Rsqr in *; lra).
@@ -211,14 +217,16 @@ Lemma steady_from p : steadyV (fun u => vsub p (way u)).
 Proof. apply steady_vsub; auto. apply steady_fixed. Qed.
 Lemma steady_re : steady (fun u => re (way u) T).
 Proof.
-  unfold re, dee. pose proof (fun p => steady_norm _ (steady_from p)). pose proof (fun p q => steady_dot _ _ (steady_from p) (steady_from q)).
+  unfold re, dee. pose proof (fun p => steady_norm _ (steady_from p)).
+  pose proof (fun p q => steady_dot _ _ (steady_from p) (steady_from q)).
   repeat first [apply H|apply H0|apply steady_plus|apply steady_mult].
 Qed.
 Lemma steady_im : steady (fun u => im (way u) T).
 Proof. unfold im, det. apply steady_dot; [|apply steady_cross]; apply steady_from. Qed.
 Lemma steady_rad : steady (fun u => rad (way u) T).
 Proof.
-  pose proof steady_re. pose proof steady_im. change (steady (fun u => sqrt (re (way u) T * re (way u) T + im (way u) T * im (way u) T))).
+  pose proof steady_re. pose proof steady_im.
+  change (steady (fun u => sqrt (re (way u) T * re (way u) T + im (way u) T * im (way u) T))).
   apply steady_root; [apply steady_plus; apply steady_mult; auto|].
   intros u. rewrite <- rad2. apply Rle_0_sqr.
 Qed.
@@ -227,7 +235,8 @@ Proof.
   intros P. apply (steady_mult (fun u => atan (im (way u) T / (re (way u) T + rad (way u) T)))); [|apply steady_const].
   apply steady_atan; auto; [apply steady_im|apply steady_plus; [apply steady_re|apply steady_rad]].
 Qed.
-Lemma steady_turn k : (if Z.eq_dec k 0 then forall u, 0 < re (way u) T + rad (way u) T else forall u, 0 < rad (way u) T - re (way u) T) ->
+Lemma steady_turn k : (if Z.eq_dec k 0 then forall u, 0 < re (way u) T + rad (way u) T else forall u, 0 < rad (way u) T - re (way
+  u) T) ->
   steady (fun u => turn k (way u) T).
 Proof.
   unfold turn. destruct Z.eq_dec; intros P.
@@ -238,7 +247,8 @@ Qed.
 End Way.
 
 (* ---- a ray that misses a triangle never touches it *)
-Lemma missed_aside d x T m h : dot m d <= 0 -> 0 < dot m (vsub (c0 T) x) -> 0 < dot m (vsub (c1 T) x) -> 0 < dot m (vsub (c2 T) x) ->
+Lemma missed_aside d x T m h : dot m d <= 0 -> 0 < dot m (vsub (c0 T) x) -> 0 < dot m (vsub (c1 T) x) ->
+  0 < dot m (vsub (c2 T) x) ->
   0 <= h -> ~ of_tri (ray x d h) T.
 Proof.
   intros D A B C H (a & b & c & Pa & Pb & Pc & S & E).
@@ -267,7 +277,8 @@ Proof.
     - rewrite S. apply V_eq; unfold ray, vsub, vadd, vscale; cbn [vx vy vz]; ring.
     - rewrite E. apply V_eq; unfold mix, u, v, w, vsub, vadd, vscale; cbn [vx vy vz]; ring. }
   clearbody u v w. pose proof (fun p q => f_equal (det p q) F) as G.
-  assert (Lin : forall p q, det p q (vadd (vscale a u) (vadd (vscale b v) (vscale c w))) = a * det p q u + b * det p q v + c * det p q w)
+  assert (Lin : forall p q, det p q (vadd (vscale a u) (vadd (vscale b v) (vscale c w))) = a * det p q u + b * det p q v + c * det
+    p q w)
     by (intros; unfold det, dot, cross, vadd, vscale; cbn [vx vy vz]; ring).
   assert (Ld : forall p q, det p q (vscale h d) = h * det p q d) by (intros; unfold det, dot, cross, vscale; cbn [vx vy vz]; ring).
   assert (Cyc : forall p q r, det p q r = det q r p) by (intros; unfold det, dot, cross; cbn [vx vy vz]; ring).
@@ -287,22 +298,27 @@ Proof.
   assert (P : forall p q r s, 0 <= p -> 0 <= q -> p * r = q * s -> r * s < 0 -> p = 0 /\ q = 0).
   { intros p q r s P Q F N. destruct P as [P|<-], Q as [Q|<-]; auto; exfalso.
     - pose proof (Rmult_lt_0_compat _ _ P Q). assert (p * r * (q * s) = p * q * (r * s)) by ring.
-      rewrite F in H0. pose proof (Rle_0_sqr (q * s)). unfold Rsqr in *. assert (0 < p * q * - (r * s)) by (apply Rmult_lt_0_compat; lra). lra.
+      rewrite F in H0. pose proof (Rle_0_sqr (q * s)). unfold Rsqr in *.
+      assert (0 < p * q * - (r * s)) by (apply Rmult_lt_0_compat; lra). lra.
     - rewrite Rmult_0_l in F. apply Rmult_integral in F. destruct F as [->| ->]; lra.
     - rewrite Rmult_0_l in F. symmetry in F. apply Rmult_integral in F. destruct F as [->| ->]; lra. }
   assert (N : forall p q, p * q < 0 -> p <> 0 /\ q <> 0) by (intros p q L; split; intros ->; lra).
   destruct O as [O|[O|O]]; destruct (N _ _ O) as [N1 N2].
   - destruct (P a c _ _ A C E2 O) as [-> ->]. rewrite Rmult_0_l in E1. apply Rmult_integral in E1. destruct E1; lra.
-  - destruct (P b a (det d v w) (det d w u)) as [-> ->]; auto. rewrite Rmult_0_l in E2. symmetry in E2. apply Rmult_integral in E2. destruct E2; lra.
-  - destruct (P c b (det d w u) (det d u v)) as [-> ->]; auto. rewrite Rmult_0_l in E2. apply Rmult_integral in E2. destruct E2; lra.
+  - destruct (P b a (det d v w) (det d w u)) as [-> ->]; auto. rewrite Rmult_0_l in E2. symmetry in E2.
+    apply Rmult_integral in E2. destruct E2; lra.
+  - destruct (P c b (det d w u) (det d u v)) as [-> ->]; auto. rewrite Rmult_0_l in E2. apply Rmult_integral in E2.
+    destruct E2; lra.
 Qed.
-Lemma missed_behind : (let vol := det u v w in det d u v * vol < 0 /\ det d v w * vol < 0 /\ det d w u * vol < 0) -> ~ of_tri (ray x d h) T.
+Lemma missed_behind : (let vol := det u v w in det d u v * vol < 0 /\ det d v w * vol < 0 /\ det d w u * vol < 0) ->
+  ~ of_tri (ray x d h) T.
 Proof.
   intros (O1 & O2 & O3) (a & b & c & A & B & C & S & E). destruct (shares a b c S E) as (_ & _ & _ & E1 & E2 & E3). clear E.
   set (vol := det u v w) in *. assert (N : vol <> 0) by (intros N; rewrite N in O1; lra). apply Rsqr_pos_lt in N. unfold Rsqr in N.
   assert (P : forall p r, p * vol = h * r -> r * vol < 0 -> p <= 0).
   { intros p r F L. destruct (Rle_dec p 0) as [|Q]; auto. exfalso. assert (0 < p * (vol * vol)) by (apply Rmult_lt_0_compat; lra).
-    assert (0 <= h * - (r * vol)) by (apply Rmult_le_pos; lra). assert (p * (vol * vol) = h * (r * vol)) by (rewrite <- Rmult_assoc, F; ring). lra. }
+    assert (0 <= h * - (r * vol)) by (apply Rmult_le_pos; lra).
+    assert (p * (vol * vol) = h * (r * vol)) by (rewrite <- Rmult_assoc, F; ring). lra. }
   pose proof (P _ _ E1 O1). pose proof (P _ _ E2 O2). pose proof (P _ _ E3 O3). lra.
 Qed.
 End Missed.
@@ -330,7 +346,8 @@ Proof.
   - rewrite E. ring.
   - exists 0. intros h _. apply E.
 Qed.
-Lemma follows_crossed d x T k : (k = 1 \/ k = -1)%Z -> (let u := vsub (c0 T) x in let v := vsub (c1 T) x in let w := vsub (c2 T) x in
+Lemma follows_crossed d x T k : (k = 1 \/ k = -1)%Z ->
+  (let u := vsub (c0 T) x in let v := vsub (c1 T) x in let w := vsub (c2 T) x in
   0 < IZR k * det d u v /\ 0 < IZR k * det d v w /\ 0 < IZR k * det d w u /\ 0 < IZR k * det u v w) -> follows d x T k.
 Proof.
   intros K (A & B & C & W). assert (KR : IZR k = 1 \/ IZR k = -1) by (destruct K as [-> | ->]; auto).
@@ -375,7 +392,8 @@ Proof.
   intros B F. set (sum := fun y => fold_right (fun T s => turn (count T) y (image f T) + s) 0 l).
   assert (S : forall s e, sum (ray x d (onward s)) = sum (ray x d (onward e))).
   { intros s e. apply (whole_steady (fun u => sum (ray x d (onward u)))).
-    - unfold sum. clear B. induction l as [|T l' IH]; simpl; [steady|]. apply steady_plus; [|apply IH; intros; apply F; right; auto].
+    - unfold sum. clear B. induction l as [|T l' IH]; simpl; [steady|].
+      apply steady_plus; [|apply IH; intros; apply F; right; auto].
       apply (F T). left; reflexivity.
     - intros u. apply (angles_whole f l (ray x d (onward u))); auto; intros T I;
         apply (goes_off _ _ _ _ (F T I)), onward_pos. }
@@ -384,7 +402,8 @@ Proof.
     rewrite IH by (intros; apply F; right; auto). rewrite (goes_from _ _ _ _ (F T (or_introl eq_refl))), plus_IZR. ring. }
   destruct (from_some_on l (fun T h => turn (count T) (ray x d h) (image f T) = wound_by (ray x d h) (image f T) * PI)) as (H & E).
   { intros T I. apply (F T I). }
-  exists (Rmax 0 H). intros h L. pose proof (Rmax_l 0 H). pose proof (Rmax_r 0 H). assert (Sh : sum (ray x d h) = winding (ray x d h) (map (image f) l) * PI).
+  exists (Rmax 0 H). intros h L. pose proof (Rmax_l 0 H). pose proof (Rmax_r 0 H).
+  assert (Sh : sum (ray x d h) = winding (ray x d h) (map (image f) l) * PI).
   { specialize (E h ltac:(lra)). unfold sum, winding. clear - E. induction l as [|T l' IH]; [simpl; ring|]. cbn [map fold_right].
     rewrite IH by (intros; apply E; right; auto). rewrite (E T (or_introl eq_refl)). ring. }
   specialize (S 0 h). rewrite !onward_is, ray_0, S0, Sh in S by lra. apply Rmult_eq_reg_r in S; [lra|apply PI_neq0].

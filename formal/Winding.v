@@ -69,7 +69,8 @@ Theorem winding_ray f l x d (count : ztri -> Z) : balanced l -> 0 < norm d ->
 Proof.
   intros B D C. assert (D2 : 0 < dot d d) by (rewrite <- norm2; apply Rmult_lt_0_compat; exact D).
   destruct (followed f l x d count B) as (H & F); [intros T I; apply crosses_follows, C, I|].
-  destruct (from_some_on l (fun T h => forall p, In p [za T; zb T; zc T] -> 0 < dot (vscale (-1) d) (vsub (f p) (ray x d h)))) as (H' & A).
+  destruct (from_some_on l (fun T h => forall p, In p [za T; zb T;
+    zc T] -> 0 < dot (vscale (-1) d) (vsub (f p) (ray x d h)))) as (H' & A).
   { intros T _. apply (from_some_on [za T; zb T; zc T] (fun p h => 0 < dot (vscale (-1) d) (vsub (f p) (ray x d h)))).
     intros p _. exists (dot d (vsub (f p) x) / dot d d + 1). intros h L.
     replace (dot _ _) with (dot d d * (h - dot d (vsub (f p) x) / dot d d)).
