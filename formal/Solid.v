@@ -350,3 +350,25 @@ Proof.
     apply Rgt_not_eq. exact S.
   - apply derivable_continuous_pt, derivable_pt_atan.
 Qed.
+
+(* what is continuous and a whole number all along stays what it is *)
+Lemma whole_stays g s e : s <= e -> (forall u, s <= u <= e -> continuity_pt g u) ->
+  (forall u, s <= u <= e -> exists k : Z, g u = IZR k) -> g s = g e.
+Proof.
+  intros L C W. set (c u := s + clamped u * (e - s)).
+  assert (Rc : forall u, s <= c u <= e) by (intros u; unfold c; pose proof (clamped_range u); nra).
+  assert (K : steady c) by (unfold c, clamped; steady).
+  assert (G : steady (fun u => g (c u))) by (intros u; apply (continuity_pt_comp c g); [apply K|apply C, Rc]).
+  assert (C0 : c 0 = s) by (unfold c; rewrite clamped_0; ring).
+  assert (C1 : c 1 = e) by (unfold c; destruct (past_1 1) as [-> _]; [lra|ring]).
+  destruct (Req_dec (g s) (g e)) as [E|E]; [exact E|exfalso].
+  destruct (W s) as (j & J); [lra|]. destruct (W e) as (k & H); [lra|].
+  assert (No : forall y n, y = IZR n + / 2 -> Rmin (g s) (g e) <= y <= Rmax (g s) (g e) -> False).
+  { intros y n Y B. destruct (IVT_gen (fun u => g (c u)) 0 1 y G) as (v & _ & V); [rewrite C0, C1; exact B|].
+    destruct (W (c v) (Rc v)) as (i & I). rewrite I, Y in V.
+    assert (X : IZR (2 * i) = IZR (2 * n + 1)) by (rewrite plus_IZR, !mult_IZR; lra). apply eq_IZR in X. lia. }
+  rewrite J, H in *. assert (D : (j < k \/ k < j)%Z) by (destruct (Z.lt_total j k) as [|[->|]]; auto; contradiction).
+  destruct D as [D|D]; pose proof (IZR_lt _ _ D); apply Zlt_le_succ, IZR_le in D; rewrite succ_IZR in D;
+    [apply (No (IZR j + / 2) j eq_refl); rewrite Rmin_left, Rmax_right|apply (No (IZR k + / 2) k eq_refl); rewrite Rmin_right, Rmax_left];
+    lra.
+Qed.
