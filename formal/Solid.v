@@ -369,6 +369,7 @@ Proof.
     assert (X : IZR (2 * i) = IZR (2 * n + 1)) by (rewrite plus_IZR, !mult_IZR; lra). apply eq_IZR in X. lia. }
   rewrite J, H in *. assert (D : (j < k \/ k < j)%Z) by (destruct (Z.lt_total j k) as [|[->|]]; auto; contradiction).
   destruct D as [D|D]; pose proof (IZR_lt _ _ D); apply Zlt_le_succ, IZR_le in D; rewrite succ_IZR in D;
-    [apply (No (IZR j + / 2) j eq_refl); rewrite Rmin_left, Rmax_right|apply (No (IZR k + / 2) k eq_refl); rewrite Rmin_right, Rmax_left];
+    [apply (No (IZR j + / 2) j eq_refl); rewrite Rmin_left, Rmax_right
+      |apply (No (IZR k + / 2) k eq_refl); rewrite Rmin_right, Rmax_left];
     lra.
 Qed.

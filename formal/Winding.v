@@ -38,7 +38,7 @@ Theorem winding_steady (f : R -> zv -> V) (x : R -> V) l s e : balanced l ->
   winding (x s) (map (image (f s)) l) = winding (x e) (map (image (f e)) l).
 Proof.
   intros B F X L N. apply (whole_stays (fun u => winding (x u) (map (image (f u)) l)) s e L).
-  - intros u U. specialize (N u U). clear B. induction l as [|T l IH]; [apply steady_const|]. unfold winding. simpl.
+  - intros u U. specialize (N u U). clear B. induction l as [|T l IH]; [apply (steady_const 0 u)|]. unfold winding. simpl.
     apply continuity_pt_plus.
     + apply wound_steady; auto. eapply not_touched; [exact N|left; reflexivity].
     + apply IH. intros (U' & I & O). apply N. exists U'. split; [right; exact I|exact O].
@@ -69,7 +69,7 @@ Proof.
     intros T. unfold image. rewrite !E. reflexivity. }
   assert (G1 : winding x (map (image (g 1)) l) = 0).
   { assert (E : forall p, vsub (g 1 p) x = m) by (intros p; apply V_eq; unfold g, vadd, vscale, vsub; simpl; ring).
-    clear. induction l as [|T l IH]; [reflexivity|]. unfold winding in *. cbn [map fold_right]. rewrite IH, wound_is. cbv zeta.
+    clear - E. induction l as [|T l IH]; [reflexivity|]. unfold winding in *. cbn [map fold_right]. rewrite IH, wound_is. cbv zeta.
     cbn [image c0 c1 c2]. rewrite !E. replace (det m m m) with 0 by (unfold det, dot, cross; simpl; ring).
     unfold Rdiv. rewrite Rmult_0_l, atan_0. ring. }
   rewrite <- G1. transitivity (winding x (map (image (g 0)) l)); [f_equal; apply map_ext; symmetry; apply G0|].
@@ -107,7 +107,7 @@ Theorem winding_free f l way : balanced l -> steadyV way -> (forall u, 0 <= u ->
   (forall bound, exists u, forall v, u <= v -> bound < norm (way v)) -> winding (way 0) (map (image f) l) = 0.
 Proof.
   intros B S N F. destruct (winding_far f l B) as (M & H). destruct (F M) as (u & U).
-  rewrite <- (H (way (Rmax 0 u))) by (apply U, Rmax_r).
+  transitivity (winding (way (Rmax 0 u)) (map (image f) l)); [|apply H, U, Rmax_r].
   apply (winding_steady (fun _ => f) way l 0 (Rmax 0 u) B); auto; [intros p; apply steady_fixed|apply Rmax_l|].
   intros v [V _]. apply N, V.
 Qed.
