@@ -201,17 +201,175 @@ Proof.
 Qed.
 
 (* ---- a point off a triangle *)
+Lemma mixed x T p q r : 0 <= p -> 0 <= q -> 0 <= r -> 0 < p + q + r ->
+  vadd (vscale p (vsub (c0 T) x)) (vadd (vscale q (vsub (c1 T) x)) (vscale r (vsub (c2 T) x))) = mkV 0 0 0 -> of_tri x T.
+Proof.
+  intros P Q R S E. set (s := p + q + r) in *. assert (I : 0 < / s) by (apply Rinv_0_lt_compat; exact S).
+  exists (p / s), (q / s), (r / s). unfold Rdiv. repeat (split; [apply Rmult_le_pos; lra|]).
+  split; [unfold s; field; unfold s in S; lra|].
+  injection E as X Y Z. apply V_eq; unfold mix, vadd, vscale; cbn [vx vy vz].
+  - apply Rmult_eq_reg_l with s; [|lra]. transitivity (p * vx (c0 T) + q * vx (c1 T) + r * vx (c2 T)); [|field; lra].
+    unfold s. lra.
+  - apply Rmult_eq_reg_l with s; [|lra]. transitivity (p * vy (c0 T) + q * vy (c1 T) + r * vy (c2 T)); [|field; lra].
+    unfold s. lra.
+  - apply Rmult_eq_reg_l with s; [|lra]. transitivity (p * vz (c0 T) + q * vz (c1 T) + r * vz (c2 T)); [|field; lra].
+    unfold s. lra.
+Qed.
+
+Lemma dot_zero a : dot a a <= 0 -> a = mkV 0 0 0.
+Proof.
+  unfold dot. intros H. pose proof (Rle_0_sqr (vx a)). pose proof (Rle_0_sqr (vy a)). pose proof (Rle_0_sqr (vz a)).
+  unfold Rsqr in *. apply V_eq; cbn [vx vy vz]; apply Rsqr_0_uniq; unfold Rsqr; lra.
+Qed.
+
+Lemma on_edge a b : ~ off_edge a b -> exists p q, 0 <= p /\ 0 <= q /\ 0 < p + q /\ vadd (vscale p a) (vscale q b) = mkV 0 0 0.
+Proof.
+  unfold off_edge. intros N. pose proof (norm_pos a) as A. pose proof (norm_pos b) as B.
+  destruct (Req_dec (norm a) 0) as [Z|Z].
+  - exists 1, 0. repeat (split; [lra|]). pose proof (norm_sq a) as E. rewrite Z in E.
+    assert (X : a = mkV 0 0 0) by (apply dot_zero; lra). rewrite X. apply V_eq; unfold vadd, vscale; simpl; ring.
+  - exists (norm b), (norm a). repeat (split; [lra|]). apply dot_zero.
+    replace (dot _ _) with (norm b * norm b * dot a a + 2 * (norm a * norm b) * dot a b + norm a * norm a * dot b b)
+      by (unfold dot, vadd, vscale; simpl; ring).
+    rewrite <- !norm_sq.
+    replace (_ + _ + _) with (2 * ((norm a * norm b) * (norm a * norm b + dot a b))) by ring.
+    assert (0 <= norm a * norm b) by (apply Rmult_le_pos; auto). assert (norm a * norm b + dot a b <= 0) by lra. nra.
+Qed.
+
 Lemma off_tri_edges x T : ~ of_tri x T -> off_edges x T.
-Proof. Admitted.
+Proof.
+  intros N. set (a := vsub (c0 T) x). set (b := vsub (c1 T) x). set (c := vsub (c2 T) x).
+  assert (D : forall e f, {off_edge e f} + {~ off_edge e f}) by (intros; apply Rlt_dec).
+  assert (Z : forall e f, vadd e f = mkV 0 0 0 -> forall g, vadd e (vadd f (vscale 0 g)) = mkV 0 0 0 /\
+    vadd (vscale 0 g) (vadd e f) = mkV 0 0 0 /\ vadd f (vadd (vscale 0 g) e) = mkV 0 0 0).
+  { intros e f E g. injection E as X Y W. repeat split; apply V_eq; unfold vadd, vscale; cbn [vx vy vz]; lra. }
+  split; [|split].
+  - destruct (D a b) as [H|H]; [exact H|]. exfalso. apply N. apply on_edge in H as (p & q & P & Q & S & E).
+    apply (mixed x T p q 0); try lra. apply Z, E.
+  - destruct (D b c) as [H|H]; [exact H|]. exfalso. apply N. apply on_edge in H as (p & q & P & Q & S & E).
+    apply (mixed x T 0 p q); try lra. apply Z, E.
+  - destruct (D c a) as [H|H]; [exact H|]. exfalso. apply N. apply on_edge in H as (p & q & P & Q & S & E).
+    apply (mixed x T q 0 p); try lra. apply Z, E.
+Qed.
+
+Lemma crosses_dot a b c : norm c * dee a b c =
+  (norm b * norm c + dot b c) * (norm c * norm a + dot c a) - dot (cross b c) (cross c a).
+Proof.
+  replace (dot (cross b c) (cross c a)) with (dot b c * dot c a - dot a b * dot c c) by (unfold dot, cross; simpl; ring).
+  rewrite <- norm_sq. unfold dee. ring.
+Qed.
+Lemma dee_round a b c : dee b c a = dee a b c.
+Proof. unfold dee. ring. Qed.
 
 Lemma heart x T : ~ of_tri x T -> let a := vsub (c0 T) x in let b := vsub (c1 T) x in let c := vsub (c2 T) x in
   0 < arr a b c /\ 0 < dee a b c + arr a b c.
-Proof. Admitted.
+Proof.
+  intros N a b c. pose proof (off_tri_edges x T N) as O. split; [apply off_edges_arr, O|].
+  destruct (Rlt_dec 0 (dee a b c + arr a b c)) as [H|H]; [exact H|]. exfalso. apply N.
+  assert (S : arr a b c * arr a b c = dee a b c * dee a b c + det a b c * det a b c).
+  { unfold arr. apply sqrt_sqrt. pose proof (Rle_0_sqr (dee a b c)). pose proof (Rle_0_sqr (det a b c)). unfold Rsqr in *. lra. }
+  pose proof (off_edges_arr x T O) as R. fold a b c in R.
+  assert (D : dee a b c < 0) by lra.
+  assert (Y : det a b c = 0).
+  { apply Rsqr_0_uniq. pose proof (Rle_0_sqr (det a b c)). unfold Rsqr in *.
+    assert (arr a b c * arr a b c <= dee a b c * dee a b c) by nra. lra. }
+  destruct O as (Oa & Ob & Oc). fold a b c in Oa, Ob, Oc.
+  pose proof (off_edge_norm a b Oa) as Na. pose proof (off_edge_norm b c Ob) as Nb. pose proof (off_edge_norm c a Oc) as Nc.
+  unfold off_edge in *.
+  assert (P : 0 < dot (cross b c) (cross c a)).
+  { pose proof (crosses_dot a b c). assert (norm c * dee a b c < 0) by nra.
+    assert (0 < (norm b * norm c + dot b c) * (norm c * norm a + dot c a)) by (apply Rmult_lt_0_compat; auto). lra. }
+  assert (Q : 0 < dot (cross a b) (cross b c)).
+  { pose proof (crosses_dot c a b) as E. rewrite (dee_round b c a), (dee_round a b c) in E.
+    assert (norm b * dee a b c < 0) by nra.
+    assert (0 < (norm a * norm b + dot a b) * (norm b * norm c + dot b c)) by (apply Rmult_lt_0_compat; auto).
+    lra. }
+  apply (mixed x T (dot (cross b c) (cross b c)) (dot (cross b c) (cross c a)) (dot (cross a b) (cross b c))); fold a b c;
+    try lra; try apply dot_pos; [pose proof (dot_pos (cross b c)); lra|].
+  transitivity (vscale (det a b c) (cross b c)); [apply V_eq; unfold det, dot, cross, vadd, vscale; simpl; ring|].
+  rewrite Y. apply V_eq; unfold vscale; simpl; ring.
+Qed.
 
 Lemma turns x T : ~ of_tri x T -> angle_of x T (wound_by x T * PI).
-Proof. Admitted.
+Proof.
+  intros N. destruct (heart x T N) as [R S]. rewrite wound_is. unfold angle_of. cbv zeta.
+  set (a := vsub (c0 T) x) in *. set (b := vsub (c1 T) x) in *. set (c := vsub (c2 T) x) in *.
+  assert (E : arr a b c * arr a b c = dee a b c * dee a b c + det a b c * det a b c).
+  { unfold arr. apply sqrt_sqrt. pose proof (Rle_0_sqr (dee a b c)). pose proof (Rle_0_sqr (det a b c)). unfold Rsqr in *. lra. }
+  set (d := dee a b c) in *. set (y := det a b c) in *. set (r := arr a b c) in *. clearbody d y r.
+  replace (atan (y / (d + r)) / PI * PI) with (atan (y / (d + r))) by (field; apply Rgt_not_eq, PI_RGT_0).
+  set (t := y / (d + r)).
+  assert (K : 1 + t * t = 2 * r / (d + r)).
+  { unfold t. transitivity (((d + r) * (d + r) + y * y) / ((d + r) * (d + r))); [field; lra|].
+    replace ((d + r) * (d + r) + y * y) with (2 * r * (d + r)) by lra. field. lra. }
+  assert (G : 0 < 2 * r / (d + r)) by (apply Rdiv_lt_0_compat; lra).
+  assert (Q : 0 < sqrt (1 + t * t)) by (apply sqrt_lt_R0; lra).
+  assert (W : sqrt (1 + t * t) * sqrt (1 + t * t) = 2 * r / (d + r)) by (rewrite sqrt_sqrt; lra).
+  rewrite cos_2a_cos, sin_2a, cos_atan, sin_atan. replace (t²) with (t * t) by reflexivity. split.
+  - transitivity (2 / (sqrt (1 + t * t) * sqrt (1 + t * t)) - 1); [field; lra|]. rewrite W. field. lra.
+  - transitivity (2 * t / (sqrt (1 + t * t) * sqrt (1 + t * t))); [field; lra|]. rewrite W. unfold t. field. lra.
+Qed.
 
 (* ---- and how it goes where the corners and the point move *)
+Lemma steady_sqrt g : (forall u, 0 <= g u) -> steady g -> steady (fun u => sqrt (g u)).
+Proof. intros P G u. apply (continuity_pt_comp g sqrt); [apply G|]. apply continuity_pt_sqrt, P. Qed.
+Lemma steady_dot f g : steadyV f -> steadyV g -> steady (fun u => dot (f u) (g u)).
+Proof. intros (A & B & C) (D & E & F). unfold dot. steady. Qed.
+Lemma steady_cross f g : steadyV f -> steadyV g -> steadyV (fun u => cross (f u) (g u)).
+Proof. intros (A & B & C) (D & E & F). repeat split; simpl; steady. Qed.
+Lemma steady_norm f : steadyV f -> steady (fun u => norm (f u)).
+Proof. intros F. apply steady_sqrt; [intros; apply dot_pos|]. apply steady_dot; exact F. Qed.
+Lemma steady_det a b c : steadyV a -> steadyV b -> steadyV c -> steady (fun u => det (a u) (b u) (c u)).
+Proof. intros A B C. unfold det. apply steady_dot; [exact A|]. apply steady_cross; auto. Qed.
+Lemma steady_dee a b c : steadyV a -> steadyV b -> steadyV c -> steady (fun u => dee (a u) (b u) (c u)).
+Proof.
+  intros A B C. unfold dee. pose proof (steady_norm a A). pose proof (steady_norm b B). pose proof (steady_norm c C).
+  pose proof (steady_dot a b A B). pose proof (steady_dot b c B C). pose proof (steady_dot c a C A). steady.
+Qed.
+Lemma steady_arr a b c : steadyV a -> steadyV b -> steadyV c -> steady (fun u => arr (a u) (b u) (c u)).
+Proof.
+  intros A B C. pose proof (steady_dee a b c A B C). pose proof (steady_det a b c A B C). apply steady_sqrt; [|steady].
+  intros u. pose proof (Rle_0_sqr (dee (a u) (b u) (c u))). pose proof (Rle_0_sqr (det (a u) (b u) (c u))). unfold Rsqr in *. lra.
+Qed.
+
 Lemma wound_steady (f : R -> zv -> V) (x : R -> V) T u : (forall p, steadyV (fun u => f u p)) -> steadyV x ->
   ~ of_tri (x u) (image (f u) T) -> continuity_pt (fun u => wound_by (x u) (image (f u) T)) u.
-Proof. Admitted.
+Proof.
+  intros F X N. destruct (heart _ _ N) as [_ S].
+  assert (G : forall p, steadyV (fun u => vsub (f u p) (x u))) by (intros p; apply steady_vsub; auto).
+  pose proof (steady_dee _ _ _ (G (za T)) (G (zb T)) (G (zc T)) u) as D.
+  pose proof (steady_arr _ _ _ (G (za T)) (G (zb T)) (G (zc T)) u) as A.
+  pose proof (steady_det _ _ _ (G (za T)) (G (zb T)) (G (zc T)) u) as Y.
+  set (d := fun u => dee (vsub (f u (za T)) (x u)) (vsub (f u (zb T)) (x u)) (vsub (f u (zc T)) (x u))) in *.
+  set (r := fun u => arr (vsub (f u (za T)) (x u)) (vsub (f u (zb T)) (x u)) (vsub (f u (zc T)) (x u))) in *.
+  set (y := fun u => det (vsub (f u (za T)) (x u)) (vsub (f u (zb T)) (x u)) (vsub (f u (zc T)) (x u))) in *.
+  change (continuity_pt (fun u => atan (y u / (d u + r u)) * / PI) u).
+  apply (continuity_pt_mult (fun u => atan (y u / (d u + r u))) (fun _ => / PI)); [|apply steady_const].
+  apply (continuity_pt_comp (fun u => y u / (d u + r u)) atan).
+  - apply (continuity_pt_div y (fun u => d u + r u)); [exact Y|apply continuity_pt_plus; [exact D|exact A]|].
+    apply Rgt_not_eq. exact S.
+  - apply derivable_continuous_pt, derivable_pt_atan.
+Qed.
+
+(* what is continuous and a whole number all along stays what it is *)
+Lemma whole_stays g s e : s <= e -> (forall u, s <= u <= e -> continuity_pt g u) ->
+  (forall u, s <= u <= e -> exists k : Z, g u = IZR k) -> g s = g e.
+Proof.
+  intros L C W. set (c u := s + clamped u * (e - s)).
+  assert (Rc : forall u, s <= c u <= e) by (intros u; unfold c; pose proof (clamped_range u); nra).
+  assert (K : steady c) by (unfold c, clamped; steady).
+  assert (G : steady (fun u => g (c u))) by (intros u; apply (continuity_pt_comp c g); [apply K|apply C, Rc]).
+  assert (C0 : c 0 = s) by (unfold c; rewrite clamped_0; ring).
+  assert (C1 : c 1 = e) by (unfold c; destruct (past_1 1) as [-> _]; [lra|ring]).
+  destruct (Req_dec (g s) (g e)) as [E|E]; [exact E|exfalso].
+  destruct (W s) as (j & J); [lra|]. destruct (W e) as (k & H); [lra|].
+  assert (No : forall y n, y = IZR n + / 2 -> Rmin (g s) (g e) <= y <= Rmax (g s) (g e) -> False).
+  { intros y n Y B. destruct (IVT_gen (fun u => g (c u)) 0 1 y G) as (v & _ & V); [rewrite C0, C1; exact B|].
+    destruct (W (c v) (Rc v)) as (i & I). rewrite I, Y in V.
+    assert (X : IZR (2 * i) = IZR (2 * n + 1)) by (rewrite plus_IZR, !mult_IZR; lra). apply eq_IZR in X. lia. }
+  rewrite J, H in *. assert (D : (j < k \/ k < j)%Z) by (destruct (Z.lt_total j k) as [|[->|]]; auto; contradiction).
+  destruct D as [D|D]; pose proof (IZR_lt _ _ D); apply Zlt_le_succ, IZR_le in D; rewrite succ_IZR in D;
+    [apply (No (IZR j + / 2) j eq_refl); rewrite Rmin_left, Rmax_right
+      |apply (No (IZR k + / 2) k eq_refl); rewrite Rmin_right, Rmax_left];
+    lra.
+Qed.
