@@ -6,28 +6,7 @@ From Svcd Require Export Solid.
 Import ListNotations.
 Local Open Scope R_scope.
 
-(* ---- half the angle of X + Y i, as an arctangent, and turned by a half turn of it *)
-Lemma half_angle X Y r : r * r = X * X + Y * Y -> 0 < r -> 0 < X + r ->
-  cos (2 * atan (Y / (X + r))) = X / r /\ sin (2 * atan (Y / (X + r))) = Y / r.
-Proof.
-  intros E R P. set (t := Y / (X + r)). assert (T : t * (X + r) = Y) by (unfold t; field; lra).
-  assert (T0 : 0 <= t²) by apply Rle_0_sqr. assert (Q : 0 < sqrt (1 + t²)) by (apply sqrt_lt_R0; lra).
-  assert (Q2 : sqrt (1 + t²) * sqrt (1 + t²) = 1 + t * t) by (rewrite sqrt_sqrt by lra; reflexivity).
-  rewrite cos_2a_cos, sin_2a, cos_atan, sin_atan.
-  assert (W : (1 + t * t) * (X + r) = 2 * r).
-  { apply Rmult_eq_reg_r with (X + r); [|lra].
-    replace ((1 + t * t) * (X + r) * (X + r)) with ((X + r) * (X + r) + (t * (X + r)) * (t * (X + r))) by ring. rewrite T.
-    ring [E]. }
-  assert (N : 1 + t * t <> 0) by (intros N; rewrite N in W; lra).
-  assert (I : 1 / (1 + t * t) = (X + r) / (2 * r)).
-  { apply Rmult_eq_reg_l with (1 + t * t); [|exact N]. transitivity 1; [field; exact N|].
-    transitivity ((1 + t * t) * (X + r) / (2 * r)); [rewrite W; field; lra|field; lra]. }
-  split.
-  - replace (2 * _ * _ - 1) with (2 * (1 / (sqrt (1 + t²) * sqrt (1 + t²))) - 1) by (field; lra).
-    rewrite Q2, I. field. lra.
-  - replace (2 * _ * _) with (2 * t * (1 / (sqrt (1 + t²) * sqrt (1 + t²)))) by (field; lra).
-    rewrite Q2, I. transitivity (t * (X + r) / r); [field; lra|rewrite T; reflexivity].
-Qed.
+(* ---- half an angle, as `turns` has it, turned by a half turn of it *)
 Lemma half_angle_turned k X Y r : k = 1 \/ k = -1 -> r * r = X * X + Y * Y -> 0 < r -> 0 < r - X ->
   let th := - k * (PI / 2) - atan (Y / (r - X)) in cos (2 * th) = X / r /\ sin (2 * th) = Y / r.
 Proof.
@@ -133,7 +112,7 @@ Definition im x T := det (vsub (c0 T) x) (vsub (c1 T) x) (vsub (c2 T) x).
 Definition rad x T := arr (vsub (c0 T) x) (vsub (c1 T) x) (vsub (c2 T) x).
 Definition turn k x T := if Z.eq_dec k 0 then wound_by x T * PI else - IZR k * (PI / 2) - atan (im x T / (rad x T - re x T)).
 Lemma rad2 x T : rad x T * rad x T = re x T * re x T + im x T * im x T.
-Proof. apply sqrt_sqrt. pose proof (Rle_0_sqr (re x T)). pose proof (Rle_0_sqr (im x T)). unfold Rsqr in *. lra. Qed.
+Proof. apply arr2. Qed.
 Lemma rad_pos x T : 0 <= rad x T.
 Proof. apply sqrt_pos. Qed.
 Lemma rad_off x T : im x T <> 0 \/ re x T < 0 -> 0 < rad x T /\ 0 < rad x T - re x T.
