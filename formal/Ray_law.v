@@ -121,8 +121,7 @@ Proof.
   pose proof (Rle_0_sqr (re x T)) as J.
   assert (N : 0 < rad x T).
   { destruct P as [|Z]; auto. exfalso. rewrite <- Z in E. unfold Rsqr in *.
-    destruct H as [H|H]; apply Rsqr_pos_lt in H || apply Rlt_not_eq, Rsqr_pos_lt in H;
-      unfold Rsqr in H; lra. }
+    destruct H as [H|H]; apply Rsqr_pos_lt in H || apply Rlt_not_eq, Rsqr_pos_lt in H; unfold Rsqr in H; lra. }
   split; [exact N|]. destruct (Rlt_dec (re x T) 0); [lra|]. destruct H as [H|H]; [|contradiction]. apply Rsqr_pos_lt in H.
   assert (A : Rabs (re x T) < Rabs (rad x T)) by (apply Rsqr_lt_abs_0; unfold Rsqr in *; lra).
   rewrite !Rabs_pos_eq in A by lra. lra.
@@ -207,8 +206,8 @@ Proof.
     - rewrite S. apply V_eq; unfold ray, vsub, vadd, vscale; cbn [vx vy vz]; ring.
     - rewrite E. apply V_eq; unfold mix, u, v, w, vsub, vadd, vscale; cbn [vx vy vz]; ring. }
   clearbody u v w. pose proof (fun p q => f_equal (det p q) F) as G.
-  assert (Lin : forall p q, det p q (vadd (vscale a u) (vadd (vscale b v) (vscale c w))) = a * det p q u + b * det p q v +
-    c * det p q w)
+  assert (Lin : forall p q, det p q (vadd (vscale a u) (vadd (vscale b v) (vscale c w))) =
+    a * det p q u + b * det p q v + c * det p q w)
     by (intros; unfold det, dot, cross, vadd, vscale; cbn [vx vy vz]; ring).
   assert (Ld : forall p q, det p q (vscale h d) = h * det p q d) by (intros; unfold det, dot, cross, vscale; cbn [vx vy vz]; ring).
   assert (Cyc : forall p q r, det p q r = det q r p) by (intros; unfold det, dot, cross; cbn [vx vy vz]; ring).

@@ -13,7 +13,7 @@ coqc -q -noglob -w -all -o $out/tools.vo $out/tools.v 2>/dev/null ||
 ${MAKE:-make} --no-print-directory formal-proofs || fail "a proof fails"
 
 # Classical reals are built on these four axioms.
-for what in accepts_Z_sound meets_Z_sound near_free shaft_free through_hits close_near box_encloses; do
+for what in accepts_Z_sound meets_Z_sound near_free shaft_free through_hits close_near box_encloses winds_inside winds_outside; do
   printf 'From Svcd Require Import Scenes Box.\nPrint Assumptions %s.\n' $what >$out/assumptions.v
   coqc -q -noglob -w -all -R $out Svcd -o $out/assumptions.vo $out/assumptions.v |
     awk '/^[^ ]/ && $1 != "Axioms:" { sub(/.*[.]/, "", $1); print $1 }' | sort >$out/assumptions.txt
