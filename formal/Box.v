@@ -1,5 +1,6 @@
 (* Box.v - a test of Statement.v's words: a closed box, at rest, encloses each point within. From none
-   is there a `free_way`. So `never_inside` does say that a body is not in a box. *)
+   is there a `free_way`. So `never_inside` does say that a body is not in a box. And of Answers.v's: it `winds` once about
+   each point within, and about none without. *)
 From Coq Require Import Reals Lra List ZArith QArith Qreals.
 From Coquelicot Require Import Coquelicot.
 From Svcd Require Import Winding.
@@ -87,8 +88,7 @@ Proof.
     split; [exact I|split; [exact O|]]. symmetry. apply still_place.
 Qed.
 
-(* ---- a box whose triangles are all counter-clockwise as seen from outside winds once about each point within, and about none
-   without *)
+(* ---- a box whose triangles are all counter-clockwise as seen from outside *)
 Definition shut := mkBody 1 [
   mkZT (mkZ 1 (-1) (-1)) (mkZ 1 1 (-1)) (mkZ 1 1 1); mkZT (mkZ 1 (-1) (-1)) (mkZ 1 1 1) (mkZ 1 (-1) 1);
   mkZT (mkZ (-1) (-1) (-1)) (mkZ (-1) 1 1) (mkZ (-1) 1 (-1)); mkZT (mkZ (-1) (-1) (-1)) (mkZ (-1) (-1) 1) (mkZ (-1) 1 1);
@@ -138,8 +138,8 @@ Proof.
   - assert (Px : 0 < (1 - x) * (1 - x)) by (apply P; lra).
     assert (Py : 0 < (1 - x) * (1 - y)) by (apply P; lra). assert (Py' : 0 < (1 - x) * (1 + y)) by (apply P; lra).
     assert (Pz : 0 < (1 - x) * (1 - z)) by (apply P; lra). assert (Pz' : 0 < (1 - x) * (1 + z)) by (apply P; lra).
-    assert (Q : forall r, r <= 0 \/ 0 < r /\ 0 < r * (1 + x)) by (intros r; destruct (Rlt_dec 0 r); [right; split; [|apply P];
-      lra|left; lra]).
+    assert (Q : forall r, r <= 0 \/ 0 < r /\ 0 < r * (1 + x))
+      by (intros r; destruct (Rlt_dec 0 r); [right; split; [|apply P]|left]; lra).
     assert (A : forall m U, dot m d <= 0 -> 0 < dot m (vsub (c0 U) (mkV x y z)) -> 0 < dot m (vsub (c1 U) (mkV x y z)) ->
       0 < dot m (vsub (c2 U) (mkV x y z)) -> crosses d (mkV x y z) U 0) by (intros m U; apply (aside _ _ _ m)).
     Ltac at_m A a b c := apply (A (mkV a b c)); unfold image, pointR, dot, vsub; cbn [vx vy vz c0 c1 c2 za zb zc zx zy zz]; lra.

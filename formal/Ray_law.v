@@ -6,28 +6,7 @@ From Svcd Require Export Solid.
 Import ListNotations.
 Local Open Scope R_scope.
 
-(* ---- half the angle of X + Y i, as an arctangent, and turned by a half turn of it *)
-Lemma half_angle X Y r : r * r = X * X + Y * Y -> 0 < r -> 0 < X + r ->
-  cos (2 * atan (Y / (X + r))) = X / r /\ sin (2 * atan (Y / (X + r))) = Y / r.
-Proof.
-  intros E R P. set (t := Y / (X + r)). assert (T : t * (X + r) = Y) by (unfold t; field; lra).
-  assert (T0 : 0 <= t²) by apply Rle_0_sqr. assert (Q : 0 < sqrt (1 + t²)) by (apply sqrt_lt_R0; lra).
-  assert (Q2 : sqrt (1 + t²) * sqrt (1 + t²) = 1 + t * t) by (rewrite sqrt_sqrt by lra; reflexivity).
-  rewrite cos_2a_cos, sin_2a, cos_atan, sin_atan.
-  assert (W : (1 + t * t) * (X + r) = 2 * r).
-  { apply Rmult_eq_reg_r with (X + r); [|lra].
-    replace ((1 + t * t) * (X + r) * (X + r)) with ((X + r) * (X + r) + (t * (X + r)) * (t * (X + r))) by ring. rewrite T.
-    ring [E]. }
-  assert (N : 1 + t * t <> 0) by (intros N; rewrite N in W; lra).
-  assert (I : 1 / (1 + t * t) = (X + r) / (2 * r)).
-  { apply Rmult_eq_reg_l with (1 + t * t); [|exact N]. transitivity 1; [field; exact N|].
-    transitivity ((1 + t * t) * (X + r) / (2 * r)); [rewrite W; field; lra|field; lra]. }
-  split.
-  - replace (2 * _ * _ - 1) with (2 * (1 / (sqrt (1 + t²) * sqrt (1 + t²))) - 1) by (field; lra).
-    rewrite Q2, I. field. lra.
-  - replace (2 * _ * _) with (2 * t * (1 / (sqrt (1 + t²) * sqrt (1 + t²)))) by (field; lra).
-    rewrite Q2, I. transitivity (t * (X + r) / r); [field; lra|rewrite T; reflexivity].
-Qed.
+(* ---- half an angle, as `turns` has it, turned by a half turn of it *)
 Lemma half_angle_turned k X Y r : k = 1 \/ k = -1 -> r * r = X * X + Y * Y -> 0 < r -> 0 < r - X ->
   let th := - k * (PI / 2) - atan (Y / (r - X)) in cos (2 * th) = X / r /\ sin (2 * th) = Y / r.
 Proof.
@@ -65,8 +44,6 @@ Proof.
 Qed.
 
 (* ---- where the ray goes through a triangle *)
-Lemma norm2 a : norm a * norm a = dot a a.
-Proof. apply sqrt_sqrt, dot_pos. Qed.
 Lemma edge_passed d a b : det d a b <> 0 -> off_edge a b.
 Proof.
   unfold off_edge. intros N. assert (W : 0 < dot (cross a b) (cross a b)).
@@ -77,14 +54,8 @@ Proof.
   pose proof (norm_pos a). pose proof (norm_pos b).
   assert (S : Rabs (dot a b) < Rabs (norm a * norm b)).
   { apply Rsqr_lt_abs_0. unfold Rsqr. replace (_ * _ * (_ * _)) with (norm a * norm a * (norm b * norm b)) by ring.
-    rewrite !norm2. lra. }
+    rewrite !norm_sq. lra. }
   rewrite (Rabs_pos_eq (norm a * norm b)) in S by (apply Rmult_le_pos; auto). apply Rabs_lt_between in S. lra.
-Qed.
-Lemma off_edge_pos a b : off_edge a b -> 0 < norm a /\ 0 < norm b.
-Proof.
-  unfold off_edge. intros N. pose proof (norm_pos a). pose proof (norm_pos b). pose proof (cauchy a b) as C.
-  apply Rabs_le_between in C.
-  assert (P : 0 < norm a * norm b) by lra. split; [destruct H as [|E]|destruct H0 as [|E]]; auto; rewrite <- E in P; lra.
 Qed.
 Lemma three_sides p q t : 0 < p -> 0 < q -> 0 < t -> t * t - p * p - q * q + 2 * p * q > 0 -> p - q < t /\ q - p < t.
 Proof.
@@ -94,16 +65,17 @@ Qed.
 Lemma re_within a b c A B C : 0 < A -> 0 < B -> 0 < C -> vadd (vscale A a) (vadd (vscale B b) (vscale C c)) = mkV 0 0 0 ->
   off_edge a b -> off_edge b c -> off_edge c a -> dee a b c < 0.
 Proof.
-  intros PA PB PC S Oab Obc Oca. destruct (off_edge_pos _ _ Oab) as [Na Nb], (off_edge_pos _ _ Obc) as [_ Nc].
+  intros PA PB PC S Oab Obc Oca. pose proof (off_edge_norm _ _ Oab) as Na.
+  pose proof (off_edge_norm _ _ Obc) as Nb. pose proof (off_edge_norm _ _ Oca) as Nc.
   assert (X : A * vx a + B * vx b + C * vx c = 0) by (apply (f_equal vx) in S; simpl in S; lra).
   assert (Y : A * vy a + B * vy b + C * vy c = 0) by (apply (f_equal vy) in S; simpl in S; lra).
   assert (Z : A * vz a + B * vz b + C * vz c = 0) by (apply (f_equal vz) in S; simpl in S; lra). clear S.
   set (p := A * norm a). set (q := B * norm b). set (t := C * norm c).
   assert (Pp : 0 < p) by (apply Rmult_lt_0_compat; auto). assert (Pq : 0 < q) by (apply Rmult_lt_0_compat; auto).
   assert (Pt : 0 < t) by (apply Rmult_lt_0_compat; auto).
-  assert (Ep : p * p = A * A * dot a a) by (rewrite <- norm2; unfold p; ring).
-  assert (Eq : q * q = B * B * dot b b) by (rewrite <- norm2; unfold q; ring).
-  assert (Et : t * t = C * C * dot c c) by (rewrite <- norm2; unfold t; ring).
+  assert (Ep : p * p = A * A * dot a a) by (rewrite <- norm_sq; unfold p; ring).
+  assert (Eq : q * q = B * B * dot b b) by (rewrite <- norm_sq; unfold q; ring).
+  assert (Et : t * t = C * C * dot c c) by (rewrite <- norm_sq; unfold t; ring).
   assert (D : forall v, A * dot v a + B * dot v b + C * dot v c = 0).
   { intros v. unfold dot. transitivity (vx v * (A * vx a + B * vx b + C * vx c) + vy v * (A * vy a + B * vy b + C * vy c) +
       vz v * (A * vz a + B * vz b + C * vz c)); [ring|rewrite X, Y, Z; ring]. }
@@ -140,7 +112,7 @@ Definition im x T := det (vsub (c0 T) x) (vsub (c1 T) x) (vsub (c2 T) x).
 Definition rad x T := arr (vsub (c0 T) x) (vsub (c1 T) x) (vsub (c2 T) x).
 Definition turn k x T := if Z.eq_dec k 0 then wound_by x T * PI else - IZR k * (PI / 2) - atan (im x T / (rad x T - re x T)).
 Lemma rad2 x T : rad x T * rad x T = re x T * re x T + im x T * im x T.
-Proof. apply sqrt_sqrt. pose proof (Rle_0_sqr (re x T)). pose proof (Rle_0_sqr (im x T)). unfold Rsqr in *. lra. Qed.
+Proof. apply arr2. Qed.
 Lemma rad_pos x T : 0 <= rad x T.
 Proof. apply sqrt_pos. Qed.
 Lemma rad_off x T : im x T <> 0 \/ re x T < 0 -> 0 < rad x T /\ 0 < rad x T - re x T.
@@ -149,8 +121,7 @@ Proof.
   pose proof (Rle_0_sqr (re x T)) as J.
   assert (N : 0 < rad x T).
   { destruct P as [|Z]; auto. exfalso. rewrite <- Z in E. unfold Rsqr in *.
-    destruct H as [H|H]; apply Rsqr_pos_lt in H || apply Rlt_not_eq, Rsqr_pos_lt in H;
-      unfold Rsqr in H; lra. }
+    destruct H as [H|H]; apply Rsqr_pos_lt in H || apply Rlt_not_eq, Rsqr_pos_lt in H; unfold Rsqr in H; lra. }
   split; [exact N|]. destruct (Rlt_dec (re x T) 0); [lra|]. destruct H as [H|H]; [|contradiction]. apply Rsqr_pos_lt in H.
   assert (A : Rabs (re x T) < Rabs (rad x T)) by (apply Rsqr_lt_abs_0; unfold Rsqr in *; lra).
   rewrite !Rabs_pos_eq in A by lra. lra.
@@ -195,20 +166,10 @@ Qed.
 End Crossed.
 
 (* ---- continuity along a way *)
-Lemma steady_comp f g : steady f -> (forall u, continuity_pt g (f u)) -> steady (fun u => g (f u)).
-Proof. intros F G u. apply (continuity_pt_comp f g); [apply F|apply G]. Qed.
-Lemma steady_dot f g : steadyV f -> steadyV g -> steady (fun u => dot (f u) (g u)).
-Proof. intros (A & B & C) (D & E & F). unfold dot. steady. Qed.
-Lemma steady_root f : steady f -> (forall u, 0 <= f u) -> steady (fun u => sqrt (f u)).
-Proof. intros F P. apply steady_comp; auto. intros u. apply continuity_pt_sqrt, P. Qed.
-Lemma steady_norm f : steadyV f -> steady (fun u => norm (f u)).
-Proof. intros F. apply steady_root; [apply steady_dot; auto|intros; apply dot_pos]. Qed.
-Lemma steady_cross f g : steadyV f -> steadyV g -> steadyV (fun u => cross (f u) (g u)).
-Proof. intros (A & B & C) (D & E & F). unfold cross. repeat split; simpl; steady. Qed.
 Lemma steady_atan p q : steady p -> steady q -> (forall u, 0 < q u) -> steady (fun u => atan (p u / q u)).
 Proof.
-  intros P Q N. apply (steady_comp _ atan); [|intros u; apply derivable_continuous_pt, derivable_pt_atan].
-  apply (steady_mult p (fun u => / q u)); auto. intros u. apply (continuity_pt_inv q); [apply Q|]. pose proof (N u). lra.
+  intros P Q N u. apply (continuity_pt_comp (fun u => p u / q u) atan); [|apply derivable_continuous_pt, derivable_pt_atan].
+  apply (continuity_pt_div p q); [apply P|apply Q|]. apply Rgt_not_eq, N.
 Qed.
 Section Way.
 Variables (way : R -> V) (T : tri).
@@ -216,53 +177,21 @@ Hypothesis Way : steadyV way.
 Lemma steady_from p : steadyV (fun u => vsub p (way u)).
 Proof. apply steady_vsub; auto. apply steady_fixed. Qed.
 Lemma steady_re : steady (fun u => re (way u) T).
-Proof.
-  unfold re, dee. pose proof (fun p => steady_norm _ (steady_from p)).
-  pose proof (fun p q => steady_dot _ _ (steady_from p) (steady_from q)).
-  repeat first [apply H|apply H0|apply steady_plus|apply steady_mult].
-Qed.
+Proof. apply steady_dee; apply steady_from. Qed.
 Lemma steady_im : steady (fun u => im (way u) T).
-Proof. unfold im, det. apply steady_dot; [|apply steady_cross]; apply steady_from. Qed.
+Proof. apply steady_det; apply steady_from. Qed.
 Lemma steady_rad : steady (fun u => rad (way u) T).
-Proof.
-  pose proof steady_re. pose proof steady_im.
-  change (steady (fun u => sqrt (re (way u) T * re (way u) T + im (way u) T * im (way u) T))).
-  apply steady_root; [apply steady_plus; apply steady_mult; auto|].
-  intros u. rewrite <- rad2. apply Rle_0_sqr.
-Qed.
-Lemma steady_wound : (forall u, 0 < re (way u) T + rad (way u) T) -> steady (fun u => wound_by (way u) T).
-Proof.
-  intros P. apply (steady_mult (fun u => atan (im (way u) T / (re (way u) T + rad (way u) T)))); [|apply steady_const].
-  apply steady_atan; auto; [apply steady_im|apply steady_plus; [apply steady_re|apply steady_rad]].
-Qed.
-Lemma steady_turn k : (if Z.eq_dec k 0 then forall u, 0 < re (way u) T + rad (way u) T else forall u, 0 < rad (way u) T - re (way
-  u) T) ->
+Proof. apply steady_arr; apply steady_from. Qed.
+Lemma steady_turn k : (forall u, if Z.eq_dec k 0 then 0 < re (way u) T + rad (way u) T else 0 < rad (way u) T - re (way u) T) ->
   steady (fun u => turn k (way u) T).
 Proof.
-  unfold turn. destruct Z.eq_dec; intros P.
-  - apply (steady_mult (fun u => wound_by (way u) T)); [apply steady_wound, P|apply steady_const].
-  - apply (steady_minus (fun _ => - IZR k * (PI / 2))); [apply steady_const|].
-    apply steady_atan; auto; [apply steady_im|apply steady_minus; [apply steady_rad|apply steady_re]].
+  pose proof steady_re. pose proof steady_im. pose proof steady_rad. unfold turn. destruct Z.eq_dec; intros P.
+  - apply (steady_mult (fun u => atan (im (way u) T / (re (way u) T + rad (way u) T)) / PI)); steady. apply steady_atan; steady.
+  - apply (steady_minus (fun _ => - IZR k * (PI / 2))); steady. apply steady_atan; steady.
 Qed.
 End Way.
 
 (* ---- a ray that misses a triangle never touches it *)
-Lemma missed_aside d x T m h : dot m d <= 0 -> 0 < dot m (vsub (c0 T) x) -> 0 < dot m (vsub (c1 T) x) ->
-  0 < dot m (vsub (c2 T) x) ->
-  0 <= h -> ~ of_tri (ray x d h) T.
-Proof.
-  intros D A B C H (a & b & c & Pa & Pb & Pc & S & E).
-  assert (F : h * dot m d = a * dot m (vsub (c0 T) x) + b * dot m (vsub (c1 T) x) + c * dot m (vsub (c2 T) x)).
-  { transitivity (dot m (ray x d h) - (a + b + c) * dot m x).
-    - rewrite S. unfold ray, dot, vadd, vscale; cbn [vx vy vz]; ring.
-    - rewrite E. unfold mix, dot, vsub, vadd, vscale; cbn [vx vy vz]; ring. }
-  assert (h * dot m d <= 0) by (rewrite <- (Rmult_0_r h); apply Rmult_le_compat_l; auto).
-  pose proof (Rmult_le_pos _ _ Pa (Rlt_le _ _ A)). pose proof (Rmult_le_pos _ _ Pb (Rlt_le _ _ B)).
-  pose proof (Rmult_le_pos _ _ Pc (Rlt_le _ _ C)).
-  destruct Pa as [Pa|<-]; [pose proof (Rmult_lt_0_compat _ _ Pa A); lra|].
-  destruct Pb as [Pb|<-]; [pose proof (Rmult_lt_0_compat _ _ Pb B); lra|].
-  replace c with 1 in * by lra. lra.
-Qed.
 Section Missed.
 Variables (x d : V) (T : tri) (h : R).
 Let u := vsub (c0 T) x. Let v := vsub (c1 T) x. Let w := vsub (c2 T) x.
@@ -277,8 +206,8 @@ Proof.
     - rewrite S. apply V_eq; unfold ray, vsub, vadd, vscale; cbn [vx vy vz]; ring.
     - rewrite E. apply V_eq; unfold mix, u, v, w, vsub, vadd, vscale; cbn [vx vy vz]; ring. }
   clearbody u v w. pose proof (fun p q => f_equal (det p q) F) as G.
-  assert (Lin : forall p q, det p q (vadd (vscale a u) (vadd (vscale b v) (vscale c w))) = a * det p q u + b * det p q v + c * det
-    p q w)
+  assert (Lin : forall p q, det p q (vadd (vscale a u) (vadd (vscale b v) (vscale c w))) =
+    a * det p q u + b * det p q v + c * det p q w)
     by (intros; unfold det, dot, cross, vadd, vscale; cbn [vx vy vz]; ring).
   assert (Ld : forall p q, det p q (vscale h d) = h * det p q d) by (intros; unfold det, dot, cross, vscale; cbn [vx vy vz]; ring).
   assert (Cyc : forall p q r, det p q r = det q r p) by (intros; unfold det, dot, cross; cbn [vx vy vz]; ring).
@@ -356,7 +285,7 @@ Proof.
   pose proof (ray_off x d T (IZR k) A B C) as Off. split.
   - intros h H. split; [apply (ray_edges x d T (IZR k)); auto|]. rewrite E. destruct (Off h).
     apply half_angle_turned; auto. apply rad2.
-  - apply steady_turn; [apply steady_ray|]. destruct Z.eq_dec; [destruct K; lia|]. intros u. apply Off.
+  - apply steady_turn; [apply steady_ray|]. intros u. destruct Z.eq_dec; [destruct K; lia|]. apply Off.
   - rewrite E. pose proof (Off 0) as O. rewrite ray_0 in O. replace (wound_by x T * PI) with (atan (im x T / (re x T + rad x T)))
       by (rewrite wound_is; unfold im, re, rad; cbv zeta; field; apply PI_neq0).
     apply half_angle_before; [exact KR|apply rad2|apply O|exact W].
@@ -367,16 +296,12 @@ Proof.
 Qed.
 
 (* ---- all triangles *)
-Lemma whole_steady f s e : steady f -> (forall u, exists k : Z, f u = IZR k * PI) -> f s = f e.
+Lemma whole_steady f s e : s <= e -> steady f -> (forall u, exists k : Z, f u = IZR k * PI) -> f s = f e.
 Proof.
-  intros F W. destruct (W s) as (m & M), (W e) as (n & N). pose proof PI_RGT_0 as P.
-  assert (L : forall a b i j, f a = IZR i * PI -> f b = IZR j * PI -> ~ (i < j)%Z).
-  { intros a b i j A B L. destruct (IVT_gen f a b ((IZR i + / 2) * PI) F) as (u & _ & U).
-    - apply Zlt_le_succ, IZR_le in L. unfold Z.succ in L. rewrite plus_IZR in L. rewrite A, B.
-      rewrite Rmin_left, Rmax_right by (apply Rmult_le_compat_r; lra). split; apply Rmult_le_compat_r; lra.
-    - destruct (W u) as (k & E). rewrite E in U. apply Rmult_eq_reg_r in U; [|lra].
-      assert (V : IZR (2 * k) = IZR (2 * i + 1)) by (rewrite plus_IZR, !mult_IZR; lra). apply eq_IZR in V. lia. }
-  destruct (Z.lt_trichotomy m n) as [H|[H|H]]; [destruct (L s e m n); auto|subst; lra|destruct (L e s n m); auto].
+  intros L F W. pose proof PI_neq0 as P. apply Rmult_eq_reg_r with (/ PI); [|apply Rinv_neq_0_compat, P].
+  apply (whole_stays (fun u => f u * / PI) s e L).
+  - intros u _. apply (steady_mult f (fun _ => / PI) F). steady.
+  - intros u _. destruct (W u) as (k & ->). exists k. field. exact P.
 Qed.
 Lemma from_some_on {A} (l : list A) (P : A -> R -> Prop) : (forall a, In a l -> exists H, forall h, H <= h -> P a h) ->
   exists H, forall h, H <= h -> forall a, In a l -> P a h.
@@ -390,8 +315,8 @@ Theorem followed f l x d (count : ztri -> Z) : balanced l -> (forall T, In T l -
     winding (ray x d h) (map (image f) l) + IZR (fold_right (fun T n => count T + n)%Z 0%Z l).
 Proof.
   intros B F. set (sum := fun y => fold_right (fun T s => turn (count T) y (image f T) + s) 0 l).
-  assert (S : forall s e, sum (ray x d (onward s)) = sum (ray x d (onward e))).
-  { intros s e. apply (whole_steady (fun u => sum (ray x d (onward u)))).
+  assert (S : forall h, 0 <= h -> sum (ray x d (onward 0)) = sum (ray x d (onward h))).
+  { intros h L. apply (whole_steady (fun u => sum (ray x d (onward u))) 0 h L).
     - unfold sum. clear B. induction l as [|T l' IH]; simpl; [steady|].
       apply steady_plus; [|apply IH; intros; apply F; right; auto].
       apply (F T). left; reflexivity.
@@ -406,5 +331,5 @@ Proof.
   assert (Sh : sum (ray x d h) = winding (ray x d h) (map (image f) l) * PI).
   { specialize (E h ltac:(lra)). unfold sum, winding. clear - E. induction l as [|T l' IH]; [simpl; ring|]. cbn [map fold_right].
     rewrite IH by (intros; apply E; right; auto). rewrite (E T (or_introl eq_refl)). ring. }
-  specialize (S 0 h). rewrite !onward_is, ray_0, S0, Sh in S by lra. apply Rmult_eq_reg_r in S; [lra|apply PI_neq0].
+  specialize (S h ltac:(lra)). rewrite !onward_is, ray_0, S0, Sh in S by lra. apply Rmult_eq_reg_r in S; [lra|apply PI_neq0].
 Qed.

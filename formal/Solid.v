@@ -29,6 +29,8 @@ Proof. unfold norm. apply sqrt_sqrt, dot_pos. Qed.
 Lemma gram a b c : det a b c * det a b c = dot a a * dot b b * dot c c + 2 * dot a b * dot b c * dot c a
   - dot a a * (dot b c * dot b c) - dot b b * (dot c a * dot c a) - dot c c * (dot a b * dot a b).
 Proof. unfold det, dot, cross. simpl. ring. Qed.
+Lemma arr2 a b c : arr a b c * arr a b c = dee a b c * dee a b c + det a b c * det a b c.
+Proof. apply sqrt_sqrt. pose proof (Rle_0_sqr (dee a b c)). pose proof (Rle_0_sqr (det a b c)). unfold Rsqr in *. lra. Qed.
 Lemma arr_sq a b c : dee a b c * dee a b c + det a b c * det a b c =
   2 * (norm a * norm b + dot a b) * (norm b * norm c + dot b c) * (norm c * norm a + dot c a).
 Proof. rewrite gram, <- !norm_sq. unfold dee. ring. Qed.
@@ -266,8 +268,7 @@ Lemma heart x T : ~ of_tri x T -> let a := vsub (c0 T) x in let b := vsub (c1 T)
 Proof.
   intros N a b c. pose proof (off_tri_edges x T N) as O. split; [apply off_edges_arr, O|].
   destruct (Rlt_dec 0 (dee a b c + arr a b c)) as [H|H]; [exact H|]. exfalso. apply N.
-  assert (S : arr a b c * arr a b c = dee a b c * dee a b c + det a b c * det a b c).
-  { unfold arr. apply sqrt_sqrt. pose proof (Rle_0_sqr (dee a b c)). pose proof (Rle_0_sqr (det a b c)). unfold Rsqr in *. lra. }
+  pose proof (arr2 a b c) as S.
   pose proof (off_edges_arr x T O) as R. fold a b c in R.
   assert (D : dee a b c < 0) by lra.
   assert (Y : det a b c = 0).
@@ -290,24 +291,35 @@ Proof.
   rewrite Y. apply V_eq; unfold vscale; simpl; ring.
 Qed.
 
+(* half the angle of X + Y i is an arctangent *)
+Lemma half_angle X Y r : r * r = X * X + Y * Y -> 0 < r -> 0 < X + r ->
+  cos (2 * atan (Y / (X + r))) = X / r /\ sin (2 * atan (Y / (X + r))) = Y / r.
+Proof.
+  intros E R P. set (t := Y / (X + r)). assert (T : t * (X + r) = Y) by (unfold t; field; lra).
+  assert (T0 : 0 <= t²) by apply Rle_0_sqr. assert (Q : 0 < sqrt (1 + t²)) by (apply sqrt_lt_R0; lra).
+  assert (Q2 : sqrt (1 + t²) * sqrt (1 + t²) = 1 + t * t) by (rewrite sqrt_sqrt by lra; reflexivity).
+  rewrite cos_2a_cos, sin_2a, cos_atan, sin_atan.
+  assert (W : (1 + t * t) * (X + r) = 2 * r).
+  { apply Rmult_eq_reg_r with (X + r); [|lra].
+    replace ((1 + t * t) * (X + r) * (X + r)) with ((X + r) * (X + r) + (t * (X + r)) * (t * (X + r))) by ring. rewrite T.
+    ring [E]. }
+  assert (N : 1 + t * t <> 0) by (intros N; rewrite N in W; lra).
+  assert (I : 1 / (1 + t * t) = (X + r) / (2 * r)).
+  { apply Rmult_eq_reg_l with (1 + t * t); [|exact N]. transitivity 1; [field; exact N|].
+    transitivity ((1 + t * t) * (X + r) / (2 * r)); [rewrite W; field; lra|field; lra]. }
+  split.
+  - replace (2 * _ * _ - 1) with (2 * (1 / (sqrt (1 + t²) * sqrt (1 + t²))) - 1) by (field; lra).
+    rewrite Q2, I. field. lra.
+  - replace (2 * _ * _) with (2 * t * (1 / (sqrt (1 + t²) * sqrt (1 + t²)))) by (field; lra).
+    rewrite Q2, I. transitivity (t * (X + r) / r); [field; lra|rewrite T; reflexivity].
+Qed.
 Lemma turns x T : ~ of_tri x T -> angle_of x T (wound_by x T * PI).
 Proof.
   intros N. destruct (heart x T N) as [R S]. rewrite wound_is. unfold angle_of. cbv zeta.
-  set (a := vsub (c0 T) x) in *. set (b := vsub (c1 T) x) in *. set (c := vsub (c2 T) x) in *.
-  assert (E : arr a b c * arr a b c = dee a b c * dee a b c + det a b c * det a b c).
-  { unfold arr. apply sqrt_sqrt. pose proof (Rle_0_sqr (dee a b c)). pose proof (Rle_0_sqr (det a b c)). unfold Rsqr in *. lra. }
-  set (d := dee a b c) in *. set (y := det a b c) in *. set (r := arr a b c) in *. clearbody d y r.
-  replace (atan (y / (d + r)) / PI * PI) with (atan (y / (d + r))) by (field; apply Rgt_not_eq, PI_RGT_0).
-  set (t := y / (d + r)).
-  assert (K : 1 + t * t = 2 * r / (d + r)).
-  { unfold t. transitivity (((d + r) * (d + r) + y * y) / ((d + r) * (d + r))); [field; lra|].
-    replace ((d + r) * (d + r) + y * y) with (2 * r * (d + r)) by lra. field. lra. }
-  assert (G : 0 < 2 * r / (d + r)) by (apply Rdiv_lt_0_compat; lra).
-  assert (Q : 0 < sqrt (1 + t * t)) by (apply sqrt_lt_R0; lra).
-  assert (W : sqrt (1 + t * t) * sqrt (1 + t * t) = 2 * r / (d + r)) by (rewrite sqrt_sqrt; lra).
-  rewrite cos_2a_cos, sin_2a, cos_atan, sin_atan. replace (t²) with (t * t) by reflexivity. split.
-  - transitivity (2 / (sqrt (1 + t * t) * sqrt (1 + t * t)) - 1); [field; lra|]. rewrite W. field. lra.
-  - transitivity (2 * t / (sqrt (1 + t * t) * sqrt (1 + t * t))); [field; lra|]. rewrite W. unfold t. field. lra.
+  replace (atan _ / PI * PI) with (atan (det (vsub (c0 T) x) (vsub (c1 T) x) (vsub (c2 T) x) /
+    (dee (vsub (c0 T) x) (vsub (c1 T) x) (vsub (c2 T) x) + arr (vsub (c0 T) x) (vsub (c1 T) x) (vsub (c2 T) x))))
+    by (field; apply PI_neq0).
+  apply half_angle; [apply arr2|exact R|exact S].
 Qed.
 
 (* ---- and how it goes where the corners and the point move *)

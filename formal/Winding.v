@@ -131,7 +131,10 @@ Inductive crosses (d x : V) (T : tri) : Z -> Prop :=
 Lemma crosses_follows d x T k : crosses d x T k -> follows d x T k.
 Proof.
   intros [m D A B C|O|O|(A & B & C & V)|(A & B & C & V)].
-  - apply follows_missed. intros h. apply (missed_aside d x T m h D A B C).
+  - apply follows_missed. intros h H.
+    assert (E : forall p, 0 < dot m (vsub p x) -> 0 < dot m (vsub p (ray x d h))); [|apply (aside_off m); auto].
+    intros p P. assert (h * dot m d <= 0) by (rewrite <- (Rmult_0_r h); apply Rmult_le_compat_l; auto).
+    unfold ray, dot, vsub, vadd, vscale in *; cbn [vx vy vz] in *. lra.
   - apply follows_missed. intros h _. apply missed_beside, O.
   - apply follows_missed. intros h H. apply missed_behind; auto.
   - apply follows_crossed; [auto|]. cbv zeta. lra.
@@ -141,10 +144,10 @@ Theorem winding_ray f l x d (count : ztri -> Z) : balanced l -> 0 < norm d ->
   (forall T, In T l -> crosses d x (image f T) (count T)) ->
   winding x (map (image f) l) = IZR (fold_right (fun T n => count T + n)%Z 0%Z l).
 Proof.
-  intros B D C. assert (D2 : 0 < dot d d) by (rewrite <- norm2; apply Rmult_lt_0_compat; exact D).
+  intros B D C. assert (D2 : 0 < dot d d) by (rewrite <- norm_sq; apply Rmult_lt_0_compat; exact D).
   destruct (followed f l x d count B) as (H & F); [intros T I; apply crosses_follows, C, I|].
-  destruct (from_some_on l (fun T h => forall p, In p [za T; zb T;
-    zc T] -> 0 < dot (vscale (-1) d) (vsub (f p) (ray x d h)))) as (H' & A).
+  destruct (from_some_on l (fun T h => forall p, In p [za T; zb T; zc T] ->
+    0 < dot (vscale (-1) d) (vsub (f p) (ray x d h)))) as (H' & A).
   { intros T _. apply (from_some_on [za T; zb T; zc T] (fun p h => 0 < dot (vscale (-1) d) (vsub (f p) (ray x d h)))).
     intros p _. exists (dot d (vsub (f p) x) / dot d d + 1). intros h L.
     replace (dot _ _) with (dot d d * (h - dot d (vsub (f p) x) / dot d d)).
