@@ -21,13 +21,16 @@ Qed.
 (* the line misses a box, and then all triangles in it, if it misses it seen along an axis *)
 Definition misses y d bx := let w := icross prec d (isub prec bx y) in
   negb ((sign (ix w) =? 0) && (sign (iy w) =? 0) && (sign (iz w) =? 0))%Z.
+(* Sides are told along the triangle's own edges: how wide the interval of y is then counts for no more than an edge's length.
+   With u, v, w in their place a triangle much smaller than far would be told less well than the C tells it *)
 Definition crossing y d T : option Z :=
   let u := isub prec (ia T) y in let v := isub prec (ib T) y in let w := isub prec (ic T) y in
   if ((sign (idot prec d u) =? -1) && (sign (idot prec d v) =? -1) && (sign (idot prec d w) =? -1))%Z then Some 0%Z else
-  let i := sign (idet prec d u v) in let j := sign (idet prec d v w) in let k := sign (idet prec d w u) in
+  let uv := isub prec (ib T) (ia T) in let vw := isub prec (ic T) (ib T) in let wu := isub prec (ia T) (ic T) in
+  let i := sign (idet prec d u uv) in let j := sign (idet prec d v vw) in let k := sign (idet prec d w wu) in
   if ((i * j =? -1) || (j * k =? -1) || (k * i =? -1))%Z then Some 0%Z else
   if (i * j * k =? 0)%Z then None else
-  let vol := sign (idet prec u v w) in if (vol =? 0)%Z then None else Some (if (vol =? i)%Z then i else 0%Z).
+  let vol := sign (idet prec u uv vw) in if (vol =? 0)%Z then None else Some (if (vol =? i)%Z then i else 0%Z).
 Lemma same_sign i a b c : (sign i =? 0)%Z = false -> inI i a -> inI i b -> inI i c -> 0 < a /\ 0 < b /\ 0 < c \/ a < 0 /\
   b < 0 /\ c < 0.
 Proof.
@@ -70,8 +73,15 @@ Proof.
     - unfold dot, vscale in *; cbn [vx vy vz] in *; intuition lia || lra.
     - unfold dot, vscale in *; cbn [vx vy vz] in *; intuition lia || lra.
     - unfold dot, vscale in *; cbn [vx vy vz] in *; intuition lia || lra. }
-  pose proof (sign_ok _ _ (Det _ _ _ _ _ _ D U V)) as Si. pose proof (sign_ok _ _ (Det _ _ _ _ _ _ D V W)) as Sj.
-  pose proof (sign_ok _ _ (Det _ _ _ _ _ _ D W U)) as Sk. pose proof (sign_ok _ _ (Det _ _ _ _ _ _ U V W)) as Sl.
+  pose proof (in_vsub prec _ _ _ _ B A) as UV. pose proof (in_vsub prec _ _ _ _ C B) as VW.
+  pose proof (in_vsub prec _ _ _ _ A C) as WU.
+  pose proof (sign_ok _ _ (Det _ _ _ _ _ _ D U UV)) as Si. pose proof (sign_ok _ _ (Det _ _ _ _ _ _ D V VW)) as Sj.
+  pose proof (sign_ok _ _ (Det _ _ _ _ _ _ D W WU)) as Sk. pose proof (sign_ok _ _ (Det _ _ _ _ _ _ U UV VW)) as Sl.
+  assert (Along : forall p q r, det r (vsub p yR) (vsub q p) = det r (vsub p yR) (vsub q yR) /\
+      det (vsub p yR) (vsub q p) (vsub r q) = det (vsub p yR) (vsub q yR) (vsub r yR))
+    by (intros; split; unfold det, dot, cross, vsub; cbn [vx vy vz]; ring).
+  rewrite (proj1 (Along _ _ _)) in Si. rewrite (proj1 (Along _ _ _)) in Sj. rewrite (proj1 (Along _ _ _)) in Sk.
+  rewrite (proj2 (Along _ _ _)) in Sl.
   destruct Si as [Si|[[Si Li]|[Si Li]]], Sj as [Sj|[[Sj Lj]|[Sj Lj]]], Sk as [Sk|[[Sk Lk]|[Sk Lk]]], Sl as [Sl|[[Sl Ll]|[Sl Ll]]];
     rewrite Si, Sj, Sk, Sl; simpl; intros H; try discriminate; injection H as <-;
     solve [apply beside; cbv zeta; nra | apply behind; cbv zeta; nra | apply up; auto | apply down; auto].

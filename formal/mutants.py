@@ -21,7 +21,10 @@ def main():
       head.append(line)
   free, meetings, insides = [], [], []
   for words, poses in blocks:
-    cert = open('%s/%s.cert' % (folder, words[1]), 'rb').read()
+    path = '%s/%s.cert' % (folder, words[1])
+    cert = open(path, 'rb').read() if os.path.exists(path) else b''
+    if not cert:  # not every answer has one
+      continue
     (free if cert[0] == 4 else insides if cert[0] == 7 else meetings).append((words, poses, cert))
   os.makedirs(out_folder, exist_ok=True)
   with open(out, 'w') as text:
