@@ -31,4 +31,36 @@ Proof. decide equality; apply Z.eq_dec. Defined.
 Definition edge_dec (e f : zv * zv) : {e = f} + {e <> f}.
 Proof. decide equality; apply zv_dec. Defined.
 Definition edges T := [(za T, zb T); (zb T, zc T); (zc T, za T)].
-Definition balanced l := forall p q, count_occ edge_dec (flat_map edges l) (p, q) = count_occ edge_dec (flat_map edges l) (q, p).
+Definition evenly l p q := count_occ edge_dec (flat_map edges l) (p, q) = count_occ edge_dec (flat_map edges l) (q, p).
+Definition balanced l := forall p q, evenly l p q.
+
+(* ---- components are triangles joined by corners at the same place. One is closed if each of its edges goes there as often as
+   back. `closed_part l c`: c are those triangles of l that are of closed components *)
+Definition corners_of T := [za T; zb T; zc T].
+Inductive joined l T : ztri -> Prop :=
+  | itself : joined l T T
+  | next U W p : joined l T U -> In W l -> In p (corners_of U) -> In p (corners_of W) -> joined l T W.
+Definition closed l T := forall U p q, joined l T U -> In (p, q) (edges U) -> evenly l p q.
+Definition closed_part l c := exists keep, c = filter keep l /\ forall T, In T l -> (keep T = true <-> closed l T).
+
+(* at t the closed components of b, together, wind about x so often. There is one such number, of what moves: `winds_once` *)
+Definition placed m t T := mkTri (place m t (c0 T)) (place m t (c1 T)) (place m t (c2 T)).
+Definition winds b t x number := exists m c, In m (pieces b) /\ Q2R (t_from m) <= t <= Q2R (t_to m) /\
+  closed_part (tris b) c /\ number = winding x (map (fun T => placed (pieceR (size b) m) t (triR (den b) T)) c).
+
+(* FREE, of insides: at no time do the closed components of one wind about a point of the other's triangles *)
+Definition never_wound s := forall t x, 0 <= t <= 1 -> (at_time (body_a s) t x -> winds (body_b s) t x 0) /\
+  (at_time (body_b s) t x -> winds (body_a s) t x 0).
+(* INSIDE, at one time: about a corner of one they do *)
+Definition corner_at b t x := exists m T p, In m (pieces b) /\ Q2R (t_from m) <= t <= Q2R (t_to m) /\
+  In T (tris b) /\ In p (corners_of T) /\ x = place (pieceR (size b) m) t (pointR (den b) p).
+Definition within a b t := exists x number, corner_at a t x /\ winds b t x number /\ number <> 0.
+
+(* ---- THE STATEMENTS OF INSIDES. `frees` answers true of a FREE, `insides` Some (false, t) if a corner of a is inside of b
+   at t, Some (true, t) if one of b is of a. Both are given a hint, which may be anything. *)
+Definition sound_free {hint} (frees : scene -> hint -> list Z -> bool) := forall s h bytes, frees s h bytes = true ->
+  never_meet s /\ never_wound s /\ moves (body_a s) /\ moves (body_b s) /\ well_posed s.
+Definition sound_inside {hint} (insides : scene -> hint -> list Z -> option (bool * Q)) := forall s h bytes of_b t,
+  insides s h bytes = Some (of_b, t) ->
+  0 <= Q2R t <= 1 /\ (if of_b then within (body_b s) (body_a s) (Q2R t) else within (body_a s) (body_b s) (Q2R t)) /\
+  moves (body_a s) /\ moves (body_b s).

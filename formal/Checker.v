@@ -70,7 +70,7 @@ Definition nearest (z : Z) : Z :=
 
 (* ---- what it answers *)
 Inductive reason := Unfit | NotFree | EndsEarly | NotSeparated | TooDeep | OpensTriangles | Follows
-  | NoTriangle | NotNear | NoEdge | NotPierced.
+  | NoTriangle | NotNear | NoEdge | NotPierced | TooNear | NotOutside | NoCorner | NotInside.
 Inductive answer (A : Type) := Yes (a : A) | No (why : reason) (rest : list bool).
 Arguments Yes {A}.
 Arguments No {A}.
@@ -989,9 +989,9 @@ Proof.
 Qed.
 Definition sound_body b := Qle_bool 0 (size b) && forallb sound_piece (pieces b) && chained 0 (pieces b).
 
-(* Yes (true, _): surfaces never meet, and a plane has had all of one body on each side. Yes (false, l):
-   surfaces never meet, and l are the bits of rays, of which nothing is said here. *)
-Definition check_trees (s : scene) (ta tb : tree) (bytes : list Z) : answer (bool * list bool) :=
+(* Yes (_, _, true): surfaces never meet, and a plane has had all of one body on each side. Yes (l, ns, false):
+   surfaces never meet, and l are the bits of rays, of which Rays.v has more; ns are the last normals. *)
+Definition check_trees (s : scene) (ta tb : tree) (bytes : list Z) : answer state :=
   let bits := bits_of bytes in
   if negb (sound_body (body_a s) && sound_body (body_b s) && Qle_bool 0 (clearance s)) then No Unfit bits else
   match read 8 0 bits with
@@ -1000,11 +1000,11 @@ Definition check_trees (s : scene) (ta tb : tree) (bytes : list Z) : answer (boo
     let rbs := map make_ready (pieces (body_b s)) in
     match walk (size (body_a s)) (size (body_b s)) (clearance s) 129 ras rbs (stretches (size (body_a s)) (size (body_b s)) ras rbs 0 1) 0 1 true ta tb
       (skipn 32 l) (repeat (mkZ 0 0 0) 8) false with
-    | Yes (rest, _, ap) => if (ap && (8 <=? length rest)%nat)%bool then No Follows rest else Yes (ap, rest)
+    | Yes (rest, ns, ap) => if (ap && (8 <=? length rest)%nat)%bool then No Follows rest else Yes (rest, ns, ap)
     | No r l => No r l end
   | _ => No NotFree bits end.
 Definition check (s : scene) (bytes : list Z) := check_trees s (tree_of (body_a s)) (tree_of (body_b s)) bytes.
-Definition accepts s bytes := match check s bytes with Yes (ap, _) => Some ap | No _ _ => None end.
+Definition accepts s bytes := match check s bytes with Yes (_, _, ap) => Some ap | No _ _ => None end.
 
 (* what an accepted certificate has been through *)
 Lemma accepts_walk s bytes ap : accepts s bytes = Some ap ->

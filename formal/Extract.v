@@ -3,9 +3,11 @@ From Coq Require Import ZArith Extraction ExtrOcamlBasic ExtrOcamlZBigInt ExtrOC
 From Interval Require Import Float.Primitive_ops.
 From Svcd Require Import Main.
 Definition tree_double b := ByDouble.tree_of b.
-Definition check_double := ByDouble.check_trees (PrimitiveFloat.PtoP 53).
-Definition tree_Z b := ByZ.tree_of b.
-Definition check_Z := ByZ.check_trees (ZF.PtoP 60).
+Definition free_double := ByDouble.free_of (PrimitiveFloat.PtoP 53).
 Definition meeting_double := ByDouble.meeting (PrimitiveFloat.PtoP 53).
+Definition inside_double := ByDouble.inside_of (PrimitiveFloat.PtoP 53).
+Definition tree_Z b := ByZ.tree_of b.
+Definition free_Z := ByZ.free_of (ZF.PtoP 60).
 Definition meeting_Z := ByZ.meeting (ZF.PtoP 60).
-Extraction "checker.ml" mkScene tree_double check_double tree_Z check_Z meeting_double meeting_Z.
+Definition inside_Z := ByZ.inside_of (ZF.PtoP 60).
+Extraction "checker.ml" mkScene surface_of tree_double free_double meeting_double inside_double tree_Z free_Z meeting_Z inside_Z.

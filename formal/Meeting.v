@@ -8,7 +8,6 @@ Import ListNotations.
 Local Open Scope R_scope.
 
 (* ---- triangles where a body is *)
-Definition placed m t T := mkTri (place m t (c0 T)) (place m t (c1 T)) (place m t (c2 T)).
 Lemma place_mix m t T a b c : a + b + c = 1 -> place m t (mix a b c T) = mix a b c (placed m t T).
 Proof.
   intros S. replace a with (1 - b - c) by lra. unfold placed, mix, place. rewrite !rot_rows.

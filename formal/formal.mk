@@ -2,7 +2,7 @@
 # Debian: coq libcoq-coquelicot libcoq-interval; for the referee also libcoq-core-ocaml-dev libzarith-ocaml-dev ocaml-findlib; and
 # gappa; frama-c-base why3 cvc4.
 COQC = coqc -q -noglob -w -all -R build/formal Svcd
-FORMAL = Statement Answers Geometry Bezier Chains Inside Checker Meeting Main Scenes Box
+FORMAL = Statement Answers Geometry Bezier Chains Inside Solid Ray_law Winding Box Checker Meeting Closed Rays Main Scenes
 
 # Each file needs the one before it.
 build/formal/%.vo: formal/%.v
@@ -12,9 +12,14 @@ build/formal/Answers.vo: build/formal/Statement.vo
 build/formal/Geometry.vo: build/formal/Answers.vo
 build/formal/Chains.vo build/formal/Inside.vo: build/formal/Geometry.vo
 build/formal/Chains.vo: build/formal/Bezier.vo
-build/formal/Checker.vo build/formal/Box.vo: build/formal/Inside.vo
+build/formal/Solid.vo build/formal/Checker.vo: build/formal/Inside.vo
+build/formal/Ray_law.vo: build/formal/Solid.vo
+build/formal/Winding.vo: build/formal/Ray_law.vo
 build/formal/Meeting.vo: build/formal/Checker.vo
-build/formal/Main.vo: build/formal/Meeting.vo
+build/formal/Box.vo: build/formal/Winding.vo
+build/formal/Closed.vo: build/formal/Meeting.vo build/formal/Winding.vo
+build/formal/Rays.vo: build/formal/Closed.vo
+build/formal/Main.vo: build/formal/Rays.vo
 build/formal/Scenes.vo: build/formal/Main.vo
 
 build/formal/checker.ml: formal/Extract.v build/formal/Main.vo

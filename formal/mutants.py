@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """mutants.py PROBLEMS.txt FOLDER COUNT OUT.txt OUT_FOLDER - writes COUNT mutants of the FREE certificates of a problem file, and
-COUNT of those of HIT and NEAR: bits flipped behind the header, or anywhere, the end cut off or lengthened, a stretch of bytes swapped for another's.
+COUNT of those of HIT and NEAR, and of INSIDE: bits flipped behind the header, or anywhere, the end cut off or lengthened, a stretch of bytes swapped for another's.
 OUT.txt must lie in the folder of PROBLEMS.txt, which its meshes are relative to."""
 import os
 import random
@@ -19,18 +19,24 @@ def main():
       blocks[-1][1].append(line)
     else:
       head.append(line)
-  free, meetings = [], []
+  free, meetings, insides = [], [], []
   for words, poses in blocks:
-    cert = open('%s/%s.cert' % (folder, words[1]), 'rb').read()
-    if cert[0] < 7:
-      (free if cert[0] == 4 else meetings).append((words, poses, cert))
+    path = '%s/%s.cert' % (folder, words[1])
+    cert = open(path, 'rb').read() if os.path.exists(path) else b''
+    if not cert:  # not every answer has one
+      continue
+    (free if cert[0] == 4 else insides if cert[0] == 7 else meetings).append((words, poses, cert))
   os.makedirs(out_folder, exist_ok=True)
   with open(out, 'w') as text:
     text.write(''.join(head))
-    for k, kin in [(k, kin) for kin in (free, meetings) if kin for k in range(int(count))]:
+    for k, kin in [(k, kin) for kin in (free, meetings, insides) if kin for k in range(int(count))]:
       words, poses, cert = kin[k % len(kin)]
       bits, kind = bytearray(cert), rng.randrange(10)
-      if kind < 6:  # flips: mostly behind the header, of which a digest would tell
+      if kind < 3:  # flips near the end, where rays are
+        for _ in range(1 + kind):
+          bit = rng.randrange(max(0, 8 * len(bits) - 48), 8 * len(bits))
+          bits[bit // 8] ^= 0x80 >> bit % 8
+      elif kind < 6:  # mostly behind the header, of which a digest would tell
         for _ in range(1 + kind % 3):
           bit = rng.randrange(0 if kind == 5 else 40, 8 * len(bits)) if len(bits) > 5 else rng.randrange(8 * len(bits))
           bits[bit // 8] ^= 0x80 >> bit % 8
@@ -42,7 +48,7 @@ def main():
         other = rng.choice(kin)[2]
         at = rng.randrange(min(5, len(bits)), len(bits) + 1)
         bits[at:] = other[at:]
-      name = '%s%d' % ('m' if kin is free else 'n', k)
+      name = '%s%d' % ('m' if kin is free else 'i' if kin is insides else 'n', k)
       open('%s/%s.cert' % (out_folder, name), 'wb').write(bytes(bits))
       text.write(' '.join(['problem', name] + words[2:]) + '\n' + ''.join(poses))
 

@@ -1,5 +1,5 @@
-(* referee.ml - build/referee: the checkers that Checker.v and Meeting.v prove sound, on the files that
-   build/verify reads (examples/FORMATS.md), by code that shares no line with it.
+(* referee.ml - build/referee: the checkers that Checker.v, Meeting.v and Rays.v prove sound, on the
+   files that build/verify reads (examples/FORMATS.md), by code that shares no line with it.
 
      referee PROBLEMS.txt FOLDER [--clearance METRES] [--only ID,ID] [--claims] [--exact] [--coq]
      referee --sha256 FILE
@@ -125,7 +125,23 @@ let hexadecimal text = String.concat "" (List.map (fun c -> Printf.sprintf "%02x
 
 (* ---- meshes *)
 
-type mesh = { name : string; digest : int; unit_ : int; triangles : ztri list; sum : string Lazy.t }
+type mesh = { name : string; digest : int; unit_ : int; triangles : ztri list; sum : string Lazy.t; ways_in : zv list option; corner_of : int -> zv option }
+
+(* Hints, which the checker does not believe: where rays begin, a corner of each component, in the order of the components' lowest
+   vertices. None: where a vertex of no triangle is at the place of another, it may be what stands for that *)
+let hints points faces =
+  let part = Array.init (Array.length points) (fun v -> v) and used = Array.make (Array.length points) false in
+  let rec root v = if part.(v) = v then v else (part.(v) <- part.(part.(v)); root part.(v)) in
+  let unite v w = let v = root v and w = root w in part.(max v w) <- min v w in
+  List.iter (fun (a, b, c) -> unite a b; unite b c; List.iter (fun v -> used.(v) <- true) [a; b; c]) faces;
+  let places = Hashtbl.create 1000 and clear = ref true in
+  let key p = List.map Big_int_Z.string_of_big_int [p.zx; p.zy; p.zz] in
+  Array.iteri (fun v p -> match Hashtbl.find_opt places (key p) with
+    | None -> Hashtbl.add places (key p) v
+    | Some w -> if used.(v) <> used.(w) then clear := false; if used.(v) && used.(w) then unite v w) points;
+  let starts = List.filter (fun v -> used.(v) && root v = v) (List.init (Array.length points) (fun v -> v)) in
+  ((if !clear then Some (List.map (fun v -> points.(v)) starts) else None),
+   fun v -> if v < Array.length points && used.(v) then Some points.(v) else None)
 
 (* A face as triangles, numbered in the order in which ears are cut off it (Meisters 1975). It is seen along the
    axis that its normal is nearest to. One that crosses itself may have no ear: then the next corner is cut off. *)
@@ -218,11 +234,13 @@ let read_mesh name path =
   if List.exists (fun x -> not (Float.abs x <= 1e6)) all then fail path "a mesh has a coordinate out of range";
   let unit_ = List.fold_left (fun k x -> max k (snd (dyadic x))) 0 all in
   let exact x = let n, k = dyadic x in shifted n (unit_ - k) in
-  let point k = let p = Array.map exact points.(k) in { zx = p.(0); zy = p.(1); zz = p.(2) } in
-  let triangle (a, b, c) = { za = point a; zb = point b; zc = point c } in
+  let point v = let p = Array.map exact v in { zx = p.(0); zy = p.(1); zz = p.(2) } in
+  let corners = Array.map point points in
+  let triangle (a, b, c) = { za = corners.(a); zb = corners.(b); zc = corners.(c) } in
   let count = Array.length points and words = List.rev (List.rev_map word all) in
   let indices = List.concat_map (fun (a, b, c) -> [a; b; c]) faces in
-  { name; unit_; triangles = List.rev (List.rev_map triangle faces); digest = hash (hash count words) indices;
+  let ways_in, corner_of = hints corners faces in
+  { name; unit_; ways_in; corner_of; triangles = List.rev (List.rev_map triangle faces); digest = hash (hash count words) indices;
     sum = lazy (sha_256 ("nsvcd mesh 1" ^ little [count; List.length faces] ^ little words ^ little indices)) }
 
 (* ---- motions *)
@@ -267,7 +285,9 @@ let text_of = function
   | OpensTriangles -> "it opens triangles" | Follows -> "something follows its end" | Unfit -> "a motion is unfit"
   | NotFree -> "it is no certificate of version 1" | NoTriangle -> "it names a triangle that there is not"
   | NotNear -> "two points are not as near as that" | NoEdge -> "it names an edge that there is not"
-  | NotPierced -> "an edge does not pass through a triangle"
+  | NotPierced -> "an edge does not pass through a triangle" | TooNear -> "a ray passes too near to an edge"
+  | NotOutside -> "a ray does not show that a component is outside" | NoCorner -> "it names a corner that there is not"
+  | NotInside -> "a ray does not show that a corner is inside"
 
 type side = { mesh : mesh; scale : real; poses : real list list }
 
@@ -279,6 +299,12 @@ let kept make = let table = Hashtbl.create 16 in fun s b ->
   | None -> let tree = make b in Hashtbl.add table key tree; tree
 let kept_double = kept tree_double
 let kept_Z = kept tree_Z
+let surfaces = Hashtbl.create 16
+let surface_kept mesh = match Hashtbl.find_opt surfaces mesh.name with
+  | Some surface -> surface
+  | None ->
+    let surface = Option.bind mesh.ways_in (surface_of mesh.triangles) in
+    Hashtbl.add surfaces mesh.name surface; surface
 
 (* examples/verify/nsvcd_verify_claim.h: the bytes *)
 let claim clearance a b =
@@ -295,21 +321,30 @@ let judge exact clearance a b bytes =
   else if at 1 <> fold_8 a.mesh.digest then refused "it is about another mesh a" 5
   else if at 2 <> fold_8 b.mesh.digest then refused "it is about another mesh b" 5
   else if 256 * at 3 + at 4 <> fold_16 motion then refused "it is about another motion, scale or clearance" 5
-  else match at 0 land 3 with
-  | 3 -> ("uncovered", "inside")
-  | kind ->
+  else
+    let kind = at 0 land 3 in
     let ba = body a.mesh a.scale a.poses and bb = body b.mesh b.scale b.poses in
     let scene = { body_a = ba; body_b = bb; clearance = rational clearance } in
     let list = List.init size (fun k -> z (at k)) in
     let refused_at why rest = refused (text_of why) ((8 * size - List.length rest) / 8) in
-    if kind <> 0 then match if exact then meeting_Z scene list else meeting_double scene list with
+    let sides = surface_kept a.mesh, surface_kept b.mesh in
+    let unclear = a.mesh.ways_in = None || b.mesh.ways_in = None in
+    if kind = 0 then match let fa, fb = sides in
+        if exact then free_Z scene (kept_Z a ba) (kept_Z b bb) fa fb list
+        else free_double scene (kept_double a ba) (kept_double b bb) fa fb list with
+      | Yes () -> ("accepted", "free")
+      | No (Unfit, _) when unclear -> ("uncovered", "vertices of no triangle at corners")
+      | No (why, rest) -> refused_at why rest
+    else if kind = 3 then match let fa, fb = sides in
+        let corner of_b n = (if of_b then b else a).mesh.corner_of (Big_int_Z.int_of_big_int n) in
+        if exact then inside_Z scene (kept_Z a ba) (kept_Z b bb) fa fb corner list
+        else inside_double scene (kept_double a ba) (kept_double b bb) fa fb corner list with
+      | Yes _ -> ("accepted", "inside")
+      | No (Unfit, _) when unclear -> ("uncovered", "vertices of no triangle at corners")
+      | No (why, rest) -> refused_at why rest
+    else match if exact then meeting_Z scene list else meeting_double scene list with
       | Yes (hit, _) -> ("accepted", if hit then "hit" else "near")
       | No (why, rest) -> refused_at why rest
-    else match if exact then check_Z scene (kept_Z a ba) (kept_Z b bb) list
-      else check_double scene (kept_double a ba) (kept_double b bb) list with
-    | Yes (true, _) -> ("accepted", "free")
-    | Yes (false, _) -> ("uncovered", "surfaces never meet; rays follow")
-    | No (why, rest) -> refused_at why rest
 
 (* ---- as Coq terms: the scenes of Scenes.v *)
 
