@@ -288,7 +288,7 @@ line 'nothing is wrong'
 build/svcd info - <"$dir/cube.obj" | grep -q '^standard input: an OBJ: 12 triangles' || fail "info - of an OBJ"
 build/svcd info - <"$dir/x.glb" | grep -q '^standard input: a GLB: 1 triangle' || fail "info - of a GLB"
 build/svcd sweep - "$dir/cube.obj" --repeat 1 <"$dir/cube.obj" | grep -q '^hit' || fail "sweep - B"
-expect 2 'only one of the two files may be -' build/svcd sweep - -
+expect 2 'only one of the files may be -' build/svcd sweep - -
 expect 1 'Is a directory' build/svcd info "$dir"
 head -c 200000000 /dev/zero >"$dir/zeros.obj"
 expect 1 'zeros.obj: it begins with zeros' build/svcd info "$dir/zeros.obj"
