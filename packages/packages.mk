@@ -64,3 +64,18 @@ uninstall:  ## takes it away again
 	  $(DESTDIR)$(PREFIX)/lib/libneuralsvcd.* $(DESTDIR)$(PREFIX)/lib/pkgconfig/neuralsvcd.pc \
 	  $(DESTDIR)$(PREFIX)/lib/pkgconfig/neuralsvcd-library.pc $(PROGRAMS:build/installed/%=$(DESTDIR)$(PREFIX)/bin/%)
 	for manual in $(MANUALS); do rm -f $(DESTDIR)$(PREFIX)/share/$${manual#*:}; done
+
+# What is published at npm: a folder that needs no other, and its archive.
+NPM_FILES = $(addprefix packages/npm/,package.json README.md neuralsvcd.js neuralsvcd.d.ts)
+npm: build/release/neuralsvcd-$(VERSION).tgz  ## build/release/neuralsvcd-X.Y.Z.tgz, for node and browsers
+build/npm/glue.wasm: packages/npm/glue.c $(LIBRARY) $(SCENERY)
+	@$(MAKE) --no-print-directory -C examples/web ../../$@
+build/npm/package/wasm.js: build/npm/glue.wasm packages/packages.mk
+	@mkdir -p $(@D)
+	{ echo "// Built of neuralsvcd.h $(VERSION): the module, gzip in base64; the names of nsvcd_result."; \
+	  echo "export const wasm = '$$(gzip -9nc $< | base64 | tr -d '\n')';"; \
+	  echo "export const codes = '$$(sed -n '/^typedef enum nsvcd_result/,/^}/s/^  NSVCD_\(ERROR_\)*\([A-Z_]*\).*/\2/p' neuralsvcd.h | paste -sd' ')'.split(' ');"; } >$@
+build/release/neuralsvcd-$(VERSION).tgz: build/npm/package/wasm.js $(NPM_FILES) LICENSE
+	@mkdir -p $(@D)
+	cp $(NPM_FILES) LICENSE build/npm/package/
+	cd build/npm/package && npm pack --silent --pack-destination ../../release
