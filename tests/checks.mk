@@ -2,7 +2,7 @@
 
 # What a change must pass beside `make test`, within 25 minutes on two cores; and what a release must: CONTRIBUTING.md says
 # what each catches. Programs that several of them use are made first, so that no two make the same file at once.
-CHECKS = text rooms header examples newcomer tools processor fast-math levels exact extremes motions sanitizers fuzz python trainer benches formal
+CHECKS = text rooms header examples newcomer tools processor fast-math levels exact extremes motions sanitizers fuzz python bindings trainer benches formal
 RELEASE = packages formal-all gradient tiles many 32 options robots rest one-path problems threads cross mingw firmware web sanitizers-all mutants
 CHECKED = build/svcd build/verify $(DEMOS) build/make_assets build/problems build/check_motions build/check_rest
 check:  ## what else a change must pass; the last line is `N passed, N failed, N skipped`; ONLY="text rooms"
@@ -118,6 +118,8 @@ check-python:
 	  $$python -c 'import numpy' 2>/dev/null || continue; \
 	  $(MAKE) build/svcd build/_neuralsvcd.so build/_nsvcd_verify.so && cd examples/python && exec $$python -B -m unittest; exit 1; \
 	done; echo "check-python: no python3 with numpy: not tested"
+check-bindings:  # the packages for npm and crates.io: made, installed in an empty folder, asked
+	+CC="$(CC)" tests/bindings.sh
 # The examples for Windows, where MinGW is there (Debian: gcc-mingw-w64-x86-64).
 MINGW = x86_64-w64-mingw32-gcc
 $(EXAMPLES:%=%.exe): build/%.exe: examples/%.c $(wildcard examples/*.h) $(SCENERY) $(LIBRARY) | build

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // glue.c - the proof as a WebAssembly module for neuralsvcd.js, which calls the library's own
 // functions and reads its structs in linear memory. Only the readers of files need one more. The
 // module imports nothing.

@@ -1,0 +1,49 @@
+#!/bin/sh
+# The packages for other languages, as they are published: each is made, put into an empty folder, and asked hello.c's question
+# by the program of its own README; then its own tests. Ends with 1 at the first thing that is wrong.
+set -eu
+here=$(pwd)
+dir=$(mktemp -d)
+trap 'rm -rf "$dir"' EXIT
+fail() {
+  echo "bindings: $*" >&2
+  exit 1
+}
+# readme LANGUAGE FILE: its first program.
+readme() {
+  awk -v begin="\`\`\`$1" '$0 == begin && !done {on = 1; next} /^```/ {done = done || on; on = 0} on' "$2"
+}
+now() {
+  date +%s%N | cut -c1-13
+}
+# begun SINCE: seconds.
+begun() {
+  echo "$(($(now) - $1))" | sed 's/^/000/; s/\(.*\)\(...\)$/\1.\2/; s/^0*\([0-9]\)/\1/'
+}
+said() {  # title, what it says, milliseconds when it began, bytes
+  test "$(echo "$2" | head -1)" = 'hit, t = 0.60' || fail "$1 says: $2"
+  echo "bindings: $1: hit, t = 0.60 after $(begun "$3") s, from a package of $4 bytes"
+}
+bytes() {
+  wc -c <"$1" | tr -d ' '
+}
+
+can_wasm() {
+  echo 'int main(void) { return 0; }' | "${WASM_CC:-clang}" --target=wasm32-wasi -x c - -o "$dir/can.wasm" 2>/dev/null
+}
+if ! command -v node >/dev/null || ! command -v npm >/dev/null; then
+  echo "bindings: no node or no npm: not tested"
+elif ! can_wasm; then
+  echo "bindings: ${WASM_CC:-clang} cannot link for wasm32-wasi: not tested"
+else
+  ${MAKE:-make} -s npm >"$dir/npm.txt" 2>&1 || { cat "$dir/npm.txt" >&2; fail "make npm"; }
+  package=$(ls "$here"/build/release/neuralsvcd-*.tgz)
+  mkdir "$dir/node" && cd "$dir/node"
+  cp "$here/examples/assets/mug.obj" "$here/examples/assets/dish_rack.obj" .
+  start=$(now)
+  npm install --silent --no-audit --no-fund --offline "$package" >/dev/null || fail "npm install"
+  readme js node_modules/neuralsvcd/README.md >hello.mjs
+  said "npm" "$(node hello.mjs)" "$start" "$(bytes "$package")"
+  cp "$here/tests/bindings.mjs" . && node --expose-gc bindings.mjs || fail "bindings.mjs"
+  cd "$here"
+fi
