@@ -79,3 +79,13 @@ build/release/neuralsvcd-$(VERSION).tgz: build/npm/package/wasm.js $(NPM_FILES) 
 	@mkdir -p $(@D)
 	cp $(NPM_FILES) LICENSE build/npm/package/
 	cd build/npm/package && npm pack --silent --pack-destination ../../release
+
+# What is published at crates.io: the crate with the headers, and its archive, which cargo builds once to see that it does.
+CRATE_FILES = $(addprefix packages/rust/,Cargo.toml README.md build.rs src tests) neuralsvcd.h weights.h LICENSE
+crate: build/release/neuralsvcd-$(VERSION).crate  ## build/release/neuralsvcd-X.Y.Z.crate, for Rust
+build/release/neuralsvcd-$(VERSION).crate: $(CRATE_FILES) $(wildcard packages/rust/*/*)
+	rm -rf build/crate
+	mkdir -p build/crate $(@D)
+	cp -r $(CRATE_FILES) build/crate/
+	cd build/crate && cargo package --quiet --offline --allow-dirty --target-dir ../crate_built
+	cp build/crate_built/package/$(@F) $@

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 use crate::{check, sys, Error, Mesh};
 use std::fmt;
 use std::ptr::{null, null_mut};

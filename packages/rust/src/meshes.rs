@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 use crate::{check, sys, Error, ErrorKind};
 use std::os::raw::c_int;
 use std::ptr::null;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 use crate::{check, sys, Body, Error, ErrorKind, Pose, Range, SafePose};
 use std::fmt;
 use std::os::raw::{c_int, c_void};

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 //! The functions and structs of neuralsvcd.h that this crate uses, as C has them. Their contracts are in the header. They
 //! are for what the rest of the crate does not do, and may change with any version.
 #![allow(non_camel_case_types, missing_docs)]
