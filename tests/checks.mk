@@ -178,7 +178,7 @@ check-extremes: build/problems build/svcd build/check_floors  # tiny, huge, far,
 check-one-path:  # NSVCD_ONE_PATH: the same bits from several compilers, sets of instructions, and under QEMU and node
 	CC="$(CC)" tests/one_path.sh
 
-WRITTEN = train examples examples/scenery examples/svcd examples/firmware examples/python examples/verify examples/web packages/project tests tests/promises tests/bench
+WRITTEN = train examples examples/scenery examples/svcd examples/firmware examples/python examples/verify examples/web packages/npm packages/project packages/rust/src tests tests/promises tests/bench
 FORMATTED = $(ROOMS) $(wildcard $(WRITTEN:%=%/*.[ch]) tests/bench/*.cc)
 format:  ## clang-format on what is written by hand
 	clang-format -i $(FORMATTED)

@@ -83,7 +83,7 @@ fn error_kinds(header: &str) -> String {
             writeln!(variants, "    {},", name).unwrap();
             write!(names, "ErrorKind::{}, ", name).unwrap();
         } else if line.starts_with("// ") && !line.starts_with("// ----") {
-            writeln!(variants, "    /{}", line).unwrap();
+            writeln!(variants, "    /{}", line.replace('[', "\\[")).unwrap();
         }
     }
     format!(

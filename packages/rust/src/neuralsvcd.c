@@ -8,6 +8,7 @@
 #define AT(type, field) offsetof(nsvcd_##type, field)
 #define END(type) sizeof(nsvcd_##type)
 
+// clang-format off
 // The offsets of all fields and the size of each struct, in the order of sys.rs.
 extern const size_t nsvcd_rust_layout[];
 extern const size_t nsvcd_rust_layout_count;
@@ -63,4 +64,5 @@ const size_t nsvcd_rust_layout[] = {
     AT(answer, contact_count), AT(answer, contacts), AT(answer, nearest), AT(answer, opinion),
     AT(answer, work), END(answer),
 };
+// clang-format on
 const size_t nsvcd_rust_layout_count = sizeof nsvcd_rust_layout / sizeof nsvcd_rust_layout[0];
