@@ -14,16 +14,9 @@ fail() {
 readme() {
   awk -v begin="\`\`\`$1" '$0 == begin && !done {on = 1; next} /^```/ {done = done || on; on = 0} on' "$2"
 }
-now() {
-  date +%s%N | cut -c1-13
-}
-# begun SINCE: seconds.
-begun() {
-  echo "$(($(now) - $1))" | sed 's/^/000/; s/\(.*\)\(...\)$/\1.\2/; s/^0*\([0-9]\)/\1/'
-}
-said() {  # title, what it says, milliseconds when it began, bytes
+said() {  # title, what it says, seconds when it began, bytes
   test "$(echo "$2" | head -1)" = 'hit, t = 0.60' || fail "$1 says: $2"
-  echo "bindings: $1: hit, t = 0.60 after $(begun "$3") s, from a package of $4 bytes"
+  echo "bindings: $1: hit, t = 0.60 after $(($(date +%s) - $3)) s, from a package of $4 bytes"
 }
 bytes() {
   wc -c <"$1" | tr -d ' '
@@ -41,7 +34,7 @@ else
   package=$here/build/release/neuralsvcd-$version.tgz
   mkdir "$dir/node" && cd "$dir/node"
   cp "$here/examples/assets/mug.obj" "$here/examples/assets/dish_rack.obj" .
-  start=$(now)
+  start=$(date +%s)
   npm install --silent --no-audit --no-fund --offline "$package" >/dev/null || fail "npm install"
   readme js node_modules/neuralsvcd/README.md >hello.mjs
   said "npm" "$(node hello.mjs)" "$start" "$(bytes "$package")"
@@ -63,7 +56,7 @@ else
   cp "$here/examples/assets/mug.obj" "$here/examples/assets/dish_rack.obj" .
   printf '[package]\nname = "hello"\nversion = "0.1.0"\nedition = "2021"\n[dependencies]\nneuralsvcd = { path = "neuralsvcd" }\n' >Cargo.toml
   readme rust,no_run neuralsvcd/README.md >src/main.rs
-  start=$(now)
+  start=$(date +%s)
   said "Rust" "$(unset CFLAGS; cargo run --quiet --offline)" "$start" "$(bytes "$package")"
   cd neuralsvcd
   CFLAGS="-O0 -DNSVCD_NO_DISPATCH" cargo test --quiet --offline >"$dir/rust.txt" 2>&1 || { cat "$dir/rust.txt" >&2; fail "cargo test"; }

@@ -31,15 +31,23 @@ fn run(command: &mut Command) {
     match command.status() {
         Ok(status) if status.success() => {}
         Ok(status) => panic!("{:?}: {}", command, status),
-        Err(error) => panic!("{:?}: {}. A C compiler is needed; CC says which", command, error),
+        Err(error) => panic!(
+            "{:?}: {}. A C compiler is needed. CC says which; `cl` is on the path of a developer's prompt",
+            command, error
+        ),
     }
 }
 
 fn compile(headers: &Path, out: &Path) {
     let target = env::var("TARGET").unwrap();
     let is_msvc = target.ends_with("msvc");
-    let mut compiler = tool("CC", if is_msvc { "cl" } else { "cc" });
-    let mut archiver = tool("AR", if is_msvc { "lib" } else { "ar" });
+    let (cc, ar) = match &target[..] {
+        _ if is_msvc => ("cl", "lib"),
+        _ if target.contains("windows") => ("gcc", "ar"),
+        _ => ("cc", "ar"),
+    };
+    let mut compiler = tool("CC", cc);
+    let mut archiver = tool("AR", ar);
     let object = out.join("neuralsvcd.o");
     if is_msvc {
         compiler.args(["/nologo", "/O2", "/c"]).arg(format!("/Fo{}", object.display()));
