@@ -71,7 +71,8 @@ const leaves = sweep({a: rests, b, ask: 'first', slop: 0.02});
 assert.equal(leaves.verdict, 'free');
 close(leaves.depth, 0.01);
 close(leaves.pushOut[2], 0.015, 0.006);
-assert.equal(sweep({a: {body: cube, poses: [at(0, 0, 5), at(0, 0, 0)]}, b, ask: 'first', manifold: true}).contacts.length, 4);
+const lands = sweep({a: {body: cube, poses: [at(0, 0, 5), at(0, 0, 0)]}, b, ask: 'first', manifold: true}).contacts;
+assert.equal(new Set(lands.map(({id}) => id)).size, 4);
 const capsule = Body.capsule([0, 0, -1], {x: 0, y: 0, z: 1}, 0.25);
 close(sweep({a: {body: capsule, poses: [at(-5), at(5)]}, b: {body: Body.cloud([0, 0, 1, 0, 0, 9], 0.25)}, ask: 'first'}).time.high, 0.45);
 
@@ -107,6 +108,26 @@ const corners = [];
 for (let i = 0; i < 8; i++)
   corners.push(i & 1, i >> 1 & 1, i >> 2);
 assert.equal(convexHull([...corners, 0.5, 0.5, 0.5]).indices.length, 36);
+// A cube with its corner at 1, 2, 3, without its last two triangles, and a tetrahedron.
+const cubeMesh = convexHull(corners);
+const shifted = Array.from(cubeMesh.positions, (x, i) => x + i % 3 + 1);
+const two = new Body({positions: [...shifted, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1],
+  indices: [...cubeMesh.indices.slice(0, 30), 8, 10, 9, 8, 9, 11, 9, 10, 11, 8, 11, 10]});
+const {facts} = two;
+assert.deepEqual([facts.triangles, facts.components, facts.openComponents], [14, 2, 1]);
+assert.ok(facts.openEdges >= 4 && facts.openEdges <= 6 && facts.storedTriangles > 14 && facts.size === two.toBytes().length);
+facts.low.forEach((x) => close(x, 0));
+facts.high.forEach((x, i) => close(x, i + 2));
+close(facts.extent, Math.hypot(2, 3, 4), 0.05);
+assert.ok(facts.radius < facts.extent && facts.meanPatchRadius < facts.radius / 4 && facts.meanPatchRadius > 0.01);
+assert.equal(new Body({positions: shifted, indices: cubeMesh.indices}).facts.components, 1);
+// The third of three triangles, by the only one of another body.
+const one = new Body({positions: [0, 0, 0, 0.1, 0, 0, 0, 0.1, 0]});
+const three = new Body({positions: [0, 0, 1].flatMap((z, i) => [5 * i, 0, z, 5 * i + 1, 0, z, 5 * i, 1, z])});
+const touched = sweep({a: {body: one, poses: [at(10.2, 0.2, 3), at(10.2, 0.2, -3)]}, b: {body: three}, ask: 'first'}).contacts[0];
+assert.deepEqual([touched.triangleA, touched.triangleB, touched.patchA], [0, 2, 0]);
+close(touched.point[2], 1);
+assert.ok(touched.patchB > 0);
 const field = heightField([0, 1, 2, NaN], 2, 2, [0.5, 3]);
 assert.deepEqual([...field.positions], [0, 0, 0, 0.5, 0, 1, 0, 3, 2]);
 
@@ -122,6 +143,9 @@ refuses('BODY', () => Body.fromBytes(new Uint8Array(1000)));
 refuses('QUATERNION', () => sweep({a: {body: ball, poses: [[0, 0, 0, 0, 0, 0, 2]]}, b}));
 refuses('TIMES', () => sweep({a: {...a, times: [0, 0.5]}, b}));
 refuses('CLEARANCE', () => sweep({a, b, clearance: -1}));
+refuses('SLOP', () => sweep({a, b, slop: -1}));
+refuses('TOLERANCE', () => sweep({a, b, tolerance: -1}));
+refuses('SEGMENTS', () => sweep({a, b, segments: 7}));
 refuses('TO', () => sweep({a, b, to: 1}));
 refuses('SCALE', () => sweep({a: {...a, scale: -1}, b}));
 refuses('SAME', () => sweep({a: b, b}));
