@@ -46,7 +46,7 @@ COUNT ?= 200
 endif
 
 .PHONY: all demo preview assets header api help format clean firmware web weights problems accuracy
-.PHONY: shared static release install uninstall check-packages
+.PHONY: shared static release install uninstall npm crate check-packages
 .PHONY: test check check-release
 .PHONY: bench-one-path python mutants fuzz coverage mutate
 .PHONY: bench bench-certificates bench-asks bench-casts bench-distance bench-flags bench-level bench-looks bench-routes bench-scale bench-world bench-plan race profile instructions sizes

@@ -82,3 +82,28 @@ check-trajectory: build/test_guard build/controller build/svcd  # trajectories f
 	build/controller build/cell.txt shelf person 1.68 build/up.tsv >build/controller.txt; cat build/controller.txt
 	grep -q 'stops: .*, person$$' build/controller.txt && grep -q '^there after' build/controller.txt
 	grep -q ' 0 allocations$$' build/controller.txt
+
+# What is published at npm: a folder that needs no other, and its archive.
+NPM_FILES = $(addprefix packages/npm/,package.json README.md neuralsvcd.js neuralsvcd.d.ts)
+npm: build/release/neuralsvcd-$(VERSION).tgz  ## build/release/neuralsvcd-X.Y.Z.tgz, for node and browsers
+build/npm/glue.wasm: packages/npm/glue.c $(LIBRARY) $(SCENERY)
+	@$(MAKE) --no-print-directory -C examples/web ../../$@
+build/npm/package/wasm.js: build/npm/glue.wasm packages/packages.mk
+	@mkdir -p $(@D)
+	{ echo "// Built of neuralsvcd.h $(VERSION): the module, gzip in base64; the names of nsvcd_result."; \
+	  echo "export const wasm = '$$(gzip -9nc $< | base64 | tr -d '\n')';"; \
+	  echo "export const codes = '$$(sed -n '/^typedef enum nsvcd_result/,/^}/s/^  NSVCD_\(ERROR_\)*\([A-Z_]*\).*/\2/p' neuralsvcd.h | paste -sd' ')'.split(' ');"; } >$@
+build/release/neuralsvcd-$(VERSION).tgz: build/npm/package/wasm.js $(NPM_FILES) LICENSE
+	@mkdir -p $(@D)
+	cp $(NPM_FILES) LICENSE build/npm/package/
+	cd build/npm/package && npm pack --silent --pack-destination ../../release
+
+# What is published at crates.io: the crate with the headers, and its archive, which cargo builds once to see that it does.
+CRATE_FILES = $(addprefix packages/rust/,Cargo.toml README.md build.rs src tests) neuralsvcd.h weights.h LICENSE
+crate: build/release/neuralsvcd-$(VERSION).crate  ## build/release/neuralsvcd-X.Y.Z.crate, for Rust
+build/release/neuralsvcd-$(VERSION).crate: $(CRATE_FILES) $(wildcard packages/rust/*/*)
+	rm -rf build/crate
+	mkdir -p build/crate $(@D)
+	cp -r $(CRATE_FILES) build/crate/
+	cd build/crate && cargo package --quiet --offline --allow-dirty --target-dir ../crate_built
+	cp build/crate_built/package/$(@F) $@

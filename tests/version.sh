@@ -26,6 +26,8 @@ says examples/FORMATS.md "## Body files, version $blob"
 says examples/FORMATS.md "| 4 | uint32 | version, $blob |"
 says packages/meson/neuralsvcd.wrap "revision = v$version"
 says packages/vcpkg/neuralsvcd/vcpkg.json "\"version\": \"$version\""
+says packages/npm/package.json "\"version\": \"$version\""
+says packages/rust/Cargo.toml "version = \"$version\""
 says packages/vcpkg/neuralsvcd/usage "find_package(neuralsvcd $minor "
 says packages/project/CMakeLists.txt "find_package(neuralsvcd $minor "
 says packages/project/meson.build "'>=$minor', '<${version%%.*}.$((${minor#*.} + 1))'"
@@ -39,7 +41,8 @@ for tag in $(git tag --points-at HEAD 'v*' 2>/dev/null); do
   ! grep -q "^## $version.*unreleased" CHANGELOG.md || fail "the tag is $tag, and CHANGELOG says unreleased"
 done
 for file in neuralsvcd.h weights.h examples/svcd.c examples/quickstart.c examples/plan.c examples/verify/*.[ch] \
-  examples/python/_*.c examples/python/*/*.py packages/project/main.c; do
+  examples/python/_*.c examples/python/*/*.py packages/project/main.c packages/npm/neuralsvcd.js packages/npm/neuralsvcd.d.ts packages/npm/glue.c \
+  packages/rust/src/*.[cr]* packages/trajectory/*.[ch]*; do
   head -2 "$file" | grep -qE '^(//|#) SPDX-License-Identifier: MIT$' || fail "no SPDX line in $file"
 done
 echo "version: $version everywhere; SPDX lines"
