@@ -183,6 +183,7 @@ Proof.
   destruct (found (body_b s) _ _) as [B|] eqn:FB; [|discriminate].
   apply found_ok in FA as (AR & IA & PA); auto. apply found_ok in FB as (BR & IB & PB); auto.
   pose proof (sound_body_moves _ Sa). pose proof (sound_body_moves _ Sb). apply is_share_R in U.
+  pose proof (proj1 (proper_of _ Sa)). pose proof (proj1 (proper_of _ Sb)).
   destruct (_ =? 6)%Z.
   - destruct (_ && nearer _ _ _)%bool eqn:N; [|discriminate]. rewrite !andb_true_iff in N. destruct N as ((((V & W) & V') & W') & N).
     destruct (_ <? _)%nat; [discriminate|]. destruct (_ <=? _)%nat; [discriminate|]. intros Y. injection Y as <- <-.

@@ -232,11 +232,13 @@ Proof. exists 64%nat. reflexivity. Qed.
 Lemma cast_winds by_ hint f t n b k y x : surface_of (tris by_) hint = Some f -> let m := pieceR (size by_) b in
   well_formed m -> 0 < scale m -> 0 < norm (normalR n) -> inV y (seen m t x) ->
     cast (kept f) (den by_) y (inormal prec n) (tree_of by_) = Some k ->
+  (forall T, In T (tris by_) -> ~ of_tri (seen m t x) (triR (den by_) T)) /\
   winding x (map (fun T => placed m t (triR (den by_) T)) (filter (kept f) (tris by_))) = IZR k.
 Proof.
   intros F m W S N Y H. destruct (tree_is by_) as (fuel & E0). rewrite E0 in H.
   apply (cast_ok (kept f) (den by_) y (inormal prec n) (seen m t x) (normalR n) Y (in_normal prec n)) in H.
   rewrite number_snd in H. apply counted_all in H as (count & C & ->).
+  split; [intros T J; apply (crosses_off _ _ _ _ (C T J))|].
   assert (Part : closed_part (tris by_) (filter (kept f) (tris by_))) by (exists (kept f); split;
     [reflexivity|apply (surface_ok _ _ _ F)]).
   assert (E : winding (place m t (seen m t x)) (map (placed m t) (map (triR (den by_)) (filter (kept f) (tris by_)))) =
@@ -248,6 +250,7 @@ Qed.
 Lemma shot_ok of by_ hint f t n p k : sound_body of = true -> sound_body by_ = true -> 0 < Q2R (size by_) ->
   surface_of (tris by_) hint = Some f -> shot of by_ (kept f) (tree_of by_) t n p = Some k ->
   exists m, In m (pieces of) /\ Q2R (t_from m) <= Q2R t <= Q2R (t_to m) /\
+    ~ at_time by_ (Q2R t) (place (pieceR (size of) m) (Q2R t) (pointR (den of) p)) /\
     winds by_ (Q2R t) (place (pieceR (size of) m) (Q2R t) (pointR (den of) p)) (IZR k).
 Proof.
   intros So Sb Z0 F. unfold shot, rays_end. destruct (pose_of of t) as [i|] eqn:Pi; [|discriminate].
@@ -256,9 +259,13 @@ Proof.
   exists m. split; [exact Im|split; [exact Dm|]].
   assert (X : inV (iplace prec i (ipoint prec (den of) p)) (place (pieceR (size of) m) (Q2R t) (pointR (den of) p))) by (apply
     in_place; auto; apply in_point).
-  pose proof (in_seen (size by_) j b (Q2R t) _ _ Wb Z0 Pb X) as Y. exists b, (filter (kept f) (tris by_)).
+  pose proof (in_seen (size by_) j b (Q2R t) _ _ Wb Z0 Pb X) as Y.
+  destruct (cast_winds by_ hint f (Q2R t) n b k _ _ F Wb Z0 (normal_pos n N) Y H) as [Off E]. split.
+  { intros (b' & T & y & Ib' & Db' & IT & IY & EX). apply (Off T IT). rewrite EX.
+    rewrite (proj2 (sound_body_moves _ Sb) b' b (Q2R t) y Ib' Ib Db' Db), seen_place; auto. apply Rgt_not_eq, Z0. }
+  exists b, (filter (kept f) (tris by_)).
   split; [exact Ib|split; [exact Db|split; [exists (kept f); split; [reflexivity|apply (surface_ok _ _ _ F)]|]]].
-  symmetry. exact (cast_winds by_ hint f (Q2R t) n b k _ _ F Wb Z0 (normal_pos n N) Y H).
+  symmetry. exact E.
 Qed.
 
 (* ---- FREE: rays behind the walk, from each body's components *)
@@ -305,7 +312,7 @@ Lemma rays_never a b hint f hint' f' from l ns out : sound_body a = true -> soun
 Proof.
   intros Sa Sb Ra Rb Z0 N F F' -> H. destruct (part_exists (tris b)) as (c & C).
   apply (never_winds a b c Ra Rb N C f hint F). intros p I. apply (rays_ok _ _ _ _ _ H) in I as (n & E).
-  apply (shot_ok a b hint' f') in E as (m & Im & D & W); auto. rewrite Q2R_0 in *.
+  apply (shot_ok a b hint' f') in E as (m & Im & D & _ & W); auto. rewrite Q2R_0 in *.
   rewrite <- (now_is a m) in W by (auto; lra). symmetry. apply (winds_is b 0 _ 0 c); auto. lra.
 Qed.
 
@@ -364,8 +371,8 @@ Lemma shot_within of by_ ho fo hb fb t n p k : sound_body of = true -> sound_bod
   surface_of (tris of) ho = Some fo -> is_corner fo p = true -> surface_of (tris by_) hb = Some fb ->
   shot of by_ (kept fb) (tree_of by_) t n p = Some k -> (k =? 0)%Z = false -> within of by_ (Q2R t).
 Proof.
-  intros So Sb Z0 Fo C Fb E K. apply (shot_ok of by_ hb fb) in E as (m & I & D & W); auto.
-  apply surface_ok in Fo as (_ & _ & Fo). apply Fo in C as (T & IT & IP). eexists _, (IZR k). split; [|split; [exact W|]].
+  intros So Sb Z0 Fo C Fb E K. apply (shot_ok of by_ hb fb) in E as (m & I & D & Off & W); auto.
+  apply surface_ok in Fo as (_ & _ & Fo). apply Fo in C as (T & IT & IP). eexists _, (IZR k). split; [|split; [exact Off|split; [exact W|]]].
   - exists m, T, p. auto.
   - intros Q. apply eq_IZR in Q. subst k. discriminate.
 Qed.
@@ -382,7 +389,8 @@ Proof.
     destruct (negb _) eqn:C; [discriminate|]; apply negb_false_iff in C; destruct (shot _ _ _ _ _ _ _) as [k|] eqn:S;
       [|discriminate];
     destruct (k =? 0)%Z eqn:K; [discriminate|]; destruct (_ <? _)%nat; [discriminate|]; destruct (_ <=? _)%nat; [discriminate|];
-    intros H; injection H as <- <-; split; [exact U|split; [|split; apply sound_body_moves; assumption]]).
+    intros H; injection H as <- <-; split; [exact U|split; [|split; [|split; [|split]]; (apply sound_body_moves || apply proper_of);
+      assumption]]).
   - apply (shot_within _ _ _ _ _ _ _ _ _ _ So Sb Z0 Eb C Ea S K).
   - apply (shot_within _ _ _ _ _ _ _ _ _ _ So Sb Z0 Ea C Eb S K).
 Qed.

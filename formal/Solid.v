@@ -6,6 +6,8 @@ From Svcd Require Export Inside.
 Import ListNotations.
 Local Open Scope R_scope.
 
+(* each edge goes there as often as back *)
+Definition balanced l := forall p q, evenly l p q.
 Definition image (f : zv -> V) T := mkTri (f (za T)) (f (zb T)) (f (zc T)).
 Definition touches x (l : list tri) := exists T, In T l /\ of_tri x T.
 

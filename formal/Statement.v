@@ -88,7 +88,7 @@ Definition one_place b := forall m m' t x, In m (pieces b) -> In m' (pieces b) -
   place (pieceR (size b) m) t x = place (pieceR (size b) m') t x.
 Definition moves b := covers b /\ one_place b.
 
-(* and nothing is degenerate but what may be: a mesh without triangles, a size of 0 *)
+(* and nothing is degenerate but what may be: a mesh without triangles, triangles without area, a size of 0 *)
 Definition proper b := 0 <= Q2R (size b) /\ forall m, In m (pieces b) -> Q2R (t_from m) < Q2R (t_to m) /\
   0 < qdot (quatR (pose_from m)) (quatR (pose_from m)) /\ 0 < qdot (quatR (pose_to m)) (quatR (pose_to m)).
 Definition well_posed s := 0 <= Q2R (clearance s) /\ proper (body_a s) /\ proper (body_b s).

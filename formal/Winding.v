@@ -140,6 +140,19 @@ Proof.
   - apply follows_crossed; [auto|]. cbv zeta. lra.
   - apply follows_crossed; [auto|]. cbv zeta. lra.
 Qed.
+(* and the point is on none of them *)
+Lemma crosses_off d x T n : crosses d x T n -> ~ of_tri x T.
+Proof.
+  intros K O. assert (Flat : det (vsub (c0 T) x) (vsub (c1 T) x) (vsub (c2 T) x) = 0).
+  { destruct O as (a & b & c & _ & _ & _ & S & ->). replace a with (1 - b - c) by lra.
+    unfold det, dot, cross, vsub, mix, vadd, vscale. cbn [vx vy vz]. ring. }
+  destruct K as [m _ A B C|H|H|H|H]; cbv zeta in *.
+  - exact (aside_off m x T A B C O).
+  - replace x with (ray x d 0) in O by (apply V_eq; unfold ray, vadd, vscale; simpl; ring). exact (missed_beside x d T 0 H O).
+  - rewrite Flat in H. lra.
+  - rewrite Flat in H. lra.
+  - rewrite Flat in H. lra.
+Qed.
 Theorem winding_ray f l x d (count : ztri -> Z) : balanced l -> 0 < norm d ->
   (forall T, In T l -> crosses d x (image f T) (count T)) ->
   winding x (map (image f) l) = IZR (fold_right (fun T n => count T + n)%Z 0%Z l).
