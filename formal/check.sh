@@ -10,7 +10,7 @@ echo 'From Coquelicot Require Import Coquelicot. From Interval Require Import Ta
 coqc -q -noglob -w -all -o $out/tools.vo $out/tools.v 2>/dev/null ||
   { echo "formal: coqc with coquelicot and interval: not tested"; exit 0; }
 ! grep -nwE 'Admitted|admit|give_up|Axioms?|Parameters?|Conjecture|Unset' formal/*.v || fail "something is taken for granted"
-${MAKE:-make} --no-print-directory formal-proofs || fail "a proof fails"
+${MAKE:-make} -j2 --no-print-directory formal-proofs || fail "a proof fails"
 
 # Classical reals are built on these four axioms.
 theorems="accepts_Z_sound meets_Z_sound frees_Z_sound insides_Z_sound near_free shaft_free lies_within through_hits close_near
