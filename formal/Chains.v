@@ -216,15 +216,15 @@ Record link := mkLink { the : joint; value : R -> R; most : R; speed : R; bend :
 Definition ok g := well_made (the g) /\ tame_value (value g) (most g) (speed g) (bend g).
 Definition chain (l : list link) u := carried (map (fun g => (the g, value g u)) l).
 
-(* The law, THE STRAY in the head of nsvcd_verify_robot.h; `out` is the part of the chain that is outside of a joint, and what is
-   carried is never farther than L from the last link's origin. `rate`: the sum of V_k L_k; `stray`: the sum that bounds |y''| *)
+(* The law, DEVIATION in the head of nsvcd_verify_robot.h; `out` is the part of the chain that is outside of a joint, and what is
+   carried is never farther than L from the last link's origin. `rate`: the sum of V_k L_k; `acceleration`: the sum that bounds |y''| *)
 Fixpoint reaches l L := match l with
   | [] => L | g :: out => reaches out L + norm (offset (the g)) + (if slides (the g) then most g else 0) end.
 Definition arm g out L := if slides (the g) then 1 else reaches out L.
 Fixpoint rate l L := match l with [] => 0 | g :: out => rate out L + speed g * arm g out L end.
-Fixpoint stray l L := match l with
+Fixpoint acceleration l L := match l with
   | [] => 0
-  | g :: out => stray out L + bend g * arm g out L +
+  | g :: out => acceleration out L + bend g * arm g out L +
       (if slides (the g) then 0 else speed g * (2 * rate out L + speed g * arm g out L)) end.
 
 Lemma unit_axis_unit j : well_made j -> dot (unit_axis j) (unit_axis j) = 1.
@@ -233,7 +233,7 @@ Proof.
     by (unfold dot, vscale; simpl; ring).
   replace (dot (axis j) (axis j)) with (norm (axis j) * norm (axis j)) by (apply sqrt_sqrt, dot_pos). field. lra.
 Qed.
-Lemma tame_chain l y L : List.Forall ok l -> norm y <= L -> tame (fun u => chain l u y) (reaches l L) (rate l L) (stray l L).
+Lemma tame_chain l y L : List.Forall ok l -> norm y <= L -> tame (fun u => chain l u y) (reaches l L) (rate l L) (acceleration l L).
 Proof.
   intros F H. induction F as [|g out [O T] F IH]; simpl.
   - exact (tame_const y L H).
@@ -282,9 +282,9 @@ Proof.
 Qed.
 Theorem chain_leaves_chord l s q p x n u : List.Forall ok l -> 0 <= s -> 0 < qdot q q -> 0 <= u <= 1 ->
   let f v := dot n (chain l v (on_link s q p x)) in
-  Rabs (f u - ((1 - u) * f 0 + u * f 1)) <= norm n / 8 * stray l (norm p + s * norm x).
+  Rabs (f u - ((1 - u) * f 0 + u * f 1)) <= norm n / 8 * acceleration l (norm p + s * norm x).
 Proof.
-  intros F S Q I f. replace (norm n / 8 * _) with (norm n * (stray l (norm p + s * norm x) / 8)) by field.
+  intros F S Q I f. replace (norm n / 8 * _) with (norm n * (acceleration l (norm p + s * norm x) / 8)) by field.
   exact (tame_chord _ _ _ _ n u (tame_chain l _ _ F (on_link_norm s q p x S Q)) I).
 Qed.
 
@@ -302,7 +302,7 @@ Definition round g z :=
 Definition loop l p := fold_right round (mkSums (norm p) 0 0 0 0) l.
 Lemma loop_is_law l p r : reaches l (norm p + r) = reach (loop l p) + r /\
   rate l (norm p + r) = outer0 (loop l p) + outer1 (loop l p) * r /\
-  eighth * stray l (norm p + r) = deviation0 (loop l p) + deviation1 (loop l p) * r.
+  eighth * acceleration l (norm p + r) = deviation0 (loop l p) + deviation1 (loop l p) * r.
 Proof.
   induction l as [|g out (A & B & C)]; simpl; [repeat split; ring|].
   unfold arm. destruct (slides (the g)); rewrite A, B, !Rmult_plus_distr_l, C; repeat split; ring.
@@ -322,7 +322,7 @@ Definition measured o n b e t0 t1 (g : joint * (nat -> R)) :=
   let p := cut n from to (snd g) in let off := o * largest n (snd g) in
   mkLink (fst g) (bez n p) (largest n p + off) (INR n * largest (pred n) (diff p) + off)
     (INR n * INR (pred n) * largest (pred (pred n)) (diff (diff p)) + off).
-Definition strays o n b e t0 t1 m r :=
+Definition chain_deviation o n b e t0 t1 m r :=
   let z := loop (map (measured o n b e t0 t1) (joints m)) (put m) in deviation0 z + deviation1 z * r.
 
 Lemma measured_ok o n b e t0 t1 g : 0 <= o -> well_made (fst g) -> ok (measured o n b e t0 t1 g).
@@ -357,11 +357,11 @@ Proof.
   unfold measured. cbv zeta. cbn [the value]. f_equal. rewrite cut_is. f_equal. field. lra.
 Qed.
 
-(* A point of a part leaves its chord from t0 to t1, which are in one piece, by `strays` at most along a direction v of length 1 *)
+(* A point of a part leaves its chord from t0 to t1, which are in one piece, by `chain_deviation` at most along a direction v of length 1 *)
 Theorem motion_leaves_chord o n b e m t0 t1 t x r v : 0 <= o -> fit m -> norm (vscale (grown m) x) <= r ->
   b <= t0 < t1 -> t1 <= e -> t0 <= t <= t1 ->
   let f w := dot v (where_is n b e m w x) in
-  Rabs (f t - ((t1 - t) * f t0 + (t - t0) * f t1) / (t1 - t0)) <= norm v * strays o n b e t0 t1 m r.
+  Rabs (f t - ((t1 - t) * f t0 + (t - t0) * f t1) / (t1 - t0)) <= norm v * chain_deviation o n b e t0 t1 m r.
 Proof.
   intros Po (F & G & Q) R I J T f. assert (E : b < e) by lra.
   set (l := map (measured o n b e t0 t1) (joints m)). rewrite norm_vscale in R by auto.
@@ -376,20 +376,20 @@ Proof.
   replace (((t1 - t) * f t0 + (t - t0) * f t1) / (t1 - t0)) with
     ((1 - (t - t0) / (t1 - t0)) * f t0 + (t - t0) / (t1 - t0) * f t1) by (field; lra).
   eapply Rle_trans; [exact C|]. apply Rmult_le_compat_l; [apply norm_pos|].
-  unfold strays. fold l. cbv zeta. destruct (loop_is_law l (put m) r) as (_ & _ & <-).
-  assert (S : 0 <= stray l (norm (put m) + r)).
+  unfold chain_deviation. fold l. cbv zeta. destruct (loop_is_law l (put m) r) as (_ & _ & <-).
+  assert (S : 0 <= acceleration l (norm (put m) + r)).
   { destruct Tm as (y1 & y2 & Y'). destruct (Y' 0 ltac:(lra)) as (_ & _ & _ & _ & B).
     pose proof (norm_pos (y2 0)). lra. }
   unfold eighth. lra.
 Qed.
 
 (* and an arm of 1 m that turns steadily from -h to h: its tip leaves its chord by 1 - cos h, and the law says h^2 / 2, and a bit *)
-Example arm_strays h : 0 <= h -> strays 0 1 0 1 0 1 (mkPart [(upright origin0, fun i => match i with O => - h | _ => h end)]
+Example arm_deviates h : 0 <= h -> chain_deviation 0 1 0 1 0 1 (mkPart [(upright origin0, fun i => match i with O => - h | _ => h end)]
   1 still (mkV 1 0 0)) 0 = eighth * (2 * h) ^ 2.
 Proof.
   intros H. assert (S : norm (mkV 1 0 0) = 1).
   { unfold norm, dot. simpl. replace (1 * 1 + 0 * 0 + 0 * 0) with 1 by ring. apply sqrt_1. }
-  unfold strays, loop, measured, round, cut, diff. simpl. rewrite S.
+  unfold chain_deviation, loop, measured, round, cut, diff. simpl. rewrite S.
   replace ((1 - 0) / (1 - 0)) with 1 by field. replace ((0 - 0) / (1 - 0) / 1) with 0 by field.
   replace ((1 - 1) * - h + 1 * h - ((1 - 0) * - h + 0 * ((1 - 1) * - h + 1 * h))) with (2 * h) by ring.
   rewrite (Rabs_pos_eq (2 * h)) by lra. ring.
@@ -399,7 +399,7 @@ Qed.
    two instants of a piece, by more than the clearance and both deviations, separates them at all times between *)
 Theorem parts_apart o n b e ma mb t0 t1 x y rx ry v c : 0 <= o -> fit ma -> fit mb ->
   norm (vscale (grown ma) x) <= rx -> norm (vscale (grown mb) y) <= ry -> b <= t0 < t1 -> t1 <= e ->
-  let least := norm v * c + (norm v * strays o n b e t0 t1 ma rx + norm v * strays o n b e t0 t1 mb ry) in
+  let least := norm v * c + (norm v * chain_deviation o n b e t0 t1 ma rx + norm v * chain_deviation o n b e t0 t1 mb ry) in
   least < dot v (vsub (where_is n b e ma t0 x) (where_is n b e mb t0 y)) ->
   least < dot v (vsub (where_is n b e ma t1 x) (where_is n b e mb t1 y)) ->
   forall t, t0 <= t <= t1 -> c < norm (vsub (where_is n b e ma t x) (where_is n b e mb t y)).
@@ -412,7 +412,7 @@ Proof.
   assert (Main : norm v * c < dot v (vsub (where_is n b e ma t x) (where_is n b e mb t y))).
   { rewrite Sub in *. unfold least in *.
     apply (chords_apart (fun w => dot v (where_is n b e ma w x)) (fun w => dot v (where_is n b e mb w y)) t0 t1 t
-      (norm v * strays o n b e t0 t1 ma rx) (norm v * strays o n b e t0 t1 mb ry)); auto; lra. }
+      (norm v * chain_deviation o n b e t0 t1 ma rx) (norm v * chain_deviation o n b e t0 t1 mb ry)); auto; lra. }
   pose proof (cauchy v (vsub (where_is n b e ma t x) (where_is n b e mb t y))) as X.
   pose proof (Rle_abs (dot v (vsub (where_is n b e ma t x) (where_is n b e mb t y)))). pose proof (norm_pos v).
   set (d := norm (vsub _ _)) in *. nra.

@@ -18,22 +18,24 @@ static NSVCD_MEMORY(workspace,
 
 // Fills in where A is at the start and at the end.
 static void make_path(const nsvcd_body_facts *a, const nsvcd_body_facts *b, nsvcd_pose *path) {
+  memset(path, 0, 2 * sizeof *path);
+  path[0].rotation[3] = path[1].rotation[3] = 1;
+#ifdef FROM
+  const float from[3] = {FROM};
+  const float to[3] = {TO};
+  memcpy(path[0].position, from, sizeof from);
+  memcpy(path[1].position, to, sizeof to);
+  (void)a, (void)b;
+#else
   const float to_centre[3] = {b->centre[0] - a->centre[0], b->centre[1] - a->centre[1],
                               b->centre[2] - a->centre[2]};
   int axis = 0;
   for (int k = 1; k < 3; k++)
     if (b->high[k] - b->low[k] < b->high[axis] - b->low[axis]) axis = k;
   for (int end = 0; end < 2; end++) {
-    memset(&path[end], 0, sizeof path[end]);
-    path[end].rotation[3] = 1;
     for (int k = 0; k < 3; k++) path[end].position[k] = to_centre[k];
     path[end].position[axis] += (end ? -1.1f : 1.1f) * (a->radius + b->radius);
   }
-#ifdef FROM
-  const float from[3] = {FROM};
-  const float to[3] = {TO};
-  memcpy(path[0].position, from, sizeof from);
-  memcpy(path[1].position, to, sizeof to);
 #endif
 }
 

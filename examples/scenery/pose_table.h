@@ -24,18 +24,14 @@ static int take_pose_line(const reader *r, const double *shift, motion *m) {
     if (!(fabs(pose.position[k]) <= (double)NSVCD_MAX_COORDINATE))
       return refuse_field(r, "a coordinate is out of range", r->fields[timed + k]);
   }
-  if (r->field_count > 4) {
-    const double length = sqrt(oracle_dot(at + 3, at + 3) + at[6] * at[6]);
-    if (!(fabs(length - 1) <= (double)NSVCD_UNIT_TOLERANCE))
-      return refuse(r, "the quaternion is not of unit length (to 1e-4)");
-    memcpy(pose.rotation, at + 3, sizeof pose.rotation);
-    oracle_quat_normalize(pose.rotation);
-  }
+  if (r->field_count > 4 &&
+      !(fabs(take_quaternion(at + 3, &pose) - 1) <= (double)NSVCD_UNIT_TOLERANCE))
+    return refuse(r, "the quaternion is not of unit length (to 1e-4)");
   if (timed && m->count > 0 && !(n[0] > m->times[m->count - 1]))
     return refuse_field(r, "times do not rise", r->fields[0]);
   m->poses[m->count] = pose;
   m->lines[m->count] = r->line;
-  m->times[m->count] = timed ? n[0] : (double)m->count;
+  m->times[m->count] = timed ? n[0] : 0;
   m->count++;
   return 1;
 }

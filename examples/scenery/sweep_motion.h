@@ -14,7 +14,7 @@ static const char axes[] = "xyz";
 typedef struct motion {
   oracle_pose *poses;  // (count), room for NSVCD_MAX_POSES
   size_t count;
-  double *times;  // (count) of a table: when, as it says; or the pose's number; NULL: of no table
+  double *times;  // (count) of a table that has times, as it says them
   size_t *lines;  // (count) of the table
   int is_timed;   // the table has times
   int through;    // the axis along which A passes through B; -1: as it was told
@@ -40,6 +40,14 @@ static size_t take_numbers(const char *text, double *out, size_t most, double mo
   return count;
 }
 
+// Takes x y z w as the pose's rotation. Returns its length, which a caller refuses if it is not 1 to
+// NSVCD_UNIT_TOLERANCE.
+static double take_quaternion(const double *q, oracle_pose *pose) {
+  memcpy(pose->rotation, q, sizeof pose->rotation);
+  oracle_quat_normalize(pose->rotation);
+  return sqrt(oracle_dot(q, q) + q[3] * q[3]);
+}
+
 // "x,y,z" leaves the rotation as it is; "x,y,z,qx,qy,qz,qw" not. shift: added to the position, which
 // then must be within bounds. Returns 0 after a complaint.
 static int take_pose(const char *name, const char *text, const double *shift, oracle_pose *pose) {
@@ -54,12 +62,10 @@ static int take_pose(const char *name, const char *text, const double *shift, or
                     name, text, (double)NSVCD_MAX_COORDINATE);
   memcpy(pose->position, n, sizeof pose->position);
   if (count == 3) return 1;
-  memcpy(pose->rotation, n + 3, sizeof pose->rotation);
-  const double length = sqrt(oracle_dot(n + 3, n + 3) + n[6] * n[6]);
-  if (fabs(length - 1) > (double)NSVCD_UNIT_TOLERANCE)
+  const double length = take_quaternion(n + 3, pose);
+  if (!(fabs(length - 1) <= (double)NSVCD_UNIT_TOLERANCE))
     return complain("%s %s: the quaternion qx,qy,qz,qw has the length %.6g, not 1 to %g", name,
                     text, length, (double)NSVCD_UNIT_TOLERANCE);
-  oracle_quat_normalize(pose->rotation);
   return 1;
 }
 

@@ -108,17 +108,24 @@ static int sweep_round(sweep_job *job) {
   return 1;
 }
 
-// Asks the question, and, if the bodies are free of each other, how near they come.
-static int sweep_ask(sweep_job *job, const settings *options) {
+// What is asked of both bodies. poses: (count, 7) of A.
+static void sweep_begin(sweep_job *job, const settings *options, const nsvcd_pose *poses,
+                        size_t count) {
   nsvcd_question *question = &job->question;
   *question = options->sweep;
   question->a.body = job->a.body;
-  question->a.poses = job->poses;
-  question->a.times = job->times;
-  question->a.count = job->motion.count;
+  question->a.poses = poses;
+  question->a.count = count;
   question->a.scale = job->a.scale;
   question->b.body = job->b.body;
   question->b.scale = job->b.scale;
+}
+
+// Asks the question, and, if the bodies are free of each other, how near they come.
+static int sweep_ask(sweep_job *job, const settings *options) {
+  nsvcd_question *question = &job->question;
+  sweep_begin(job, options, job->poses, job->motion.count);
+  question->a.times = job->times;
   job->wait = wait_for(options);
   job->microseconds = sweep_timed(job, options, &job->answer);
   if (job->microseconds < 0) return 0;
@@ -274,12 +281,7 @@ static int sweep_all(sweep_job *job, const settings *options, json_out *json) {
   nsvcd_answer first;
   progress_bar bar = {"stretches", stretches, 0, 0};
   memset(&first, 0, sizeof first);
-  job->question = options->sweep;
-  job->question.a.body = job->a.body;
-  job->question.a.scale = job->a.scale;
-  job->question.b.body = job->b.body;
-  job->question.b.scale = job->b.scale;
-  job->question.a.count = m->count > 1 ? 2 : 1;
+  sweep_begin(job, options, job->poses, m->count > 1 ? 2 : 1);
   ask_first(&job->question, options);
   if (json) json_open(json, "all", '[');
   for (size_t i = 0; i <= stretches; i++) {

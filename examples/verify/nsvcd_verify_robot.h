@@ -9,7 +9,7 @@
 // curves in time, piece by piece. Both parts may be seen from a link that carries both, the base:
 // what is between them stays the same. nsvcd_verify refuses parts of two bases or two motions.
 //
-// THE STRAY. Let x in [0,1] be the share of a stretch of a piece that has gone by, V_j and A_j
+// DEVIATION. Let x in [0,1] be the share of a stretch of a piece that has gone by, V_j and A_j
 // bounds of |q_j'| and |q_j''| by x, and L_j one of the distance of a point y of the part from
 // joint j; of a joint that slides, 1. Of two joints the outer one is nearer to the part. The
 // derivative of y by q_j is no more than L_j; that by q_j and q_k no more than L of the outer one
