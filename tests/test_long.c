@@ -164,7 +164,7 @@ static void long_one_pose_is_low(void) {
       // between the samples that `first` is one of it may dip in earlier: then it is in there
       const double high = (double)in_order.time.high;
       CHECK(high >= first - slack || long_height(&q, high) < 1e-9);
-      CHECK_LE((double)(in_order.time.high - in_order.time.low), 3e-4);
+      CHECK_LE((double)(in_order.time.high - in_order.time.low), (double)1e-4f);
       continue;
     }
     q.to_time = 0;

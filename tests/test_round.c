@@ -232,7 +232,7 @@ static void round_judge(const nsvcd_question *q, const round_body *a, const roun
     }
     if (is_first && answer.why == 0 && answer.time.high > 0) {
       const double late = (double)(answer.time.high - answer.time.low);
-      CHECK_LE(late, 0.0101);
+      CHECK_LE(late, (double)0.01f);
       sum->firsts++;
     }
   }

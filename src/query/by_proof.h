@@ -26,6 +26,9 @@ static nsvcd__dtransform nsvcd__world_at(const nsvcd__motion *motion, double t) 
   return nsvcd__dtransform_of(&pose);
 }
 
+// the most by which time.low and time.high of an answer, of floats, are farther apart than proven
+#define NSVCD__TIME_ROUNDING 2.4e-7
+
 // The length to which an answer is asked for, or the default, in the fixed body's units.
 static double nsvcd__to_of(const nsvcd__task *task) {
   const nsvcd_question *q = task->question;
@@ -42,7 +45,8 @@ static double nsvcd__travel_in(const nsvcd__proof *p, const nsvcd__arc *arc) {
 
 // The fraction of the motion in which no point of the moving body travels farther than `to`, at
 // most `fraction`; 0: that is not asked for. Of a short motion it is at most a quarter, so that a
-// contact does not cost all of it, but no less than a safe pose backs off.
+// contact does not cost all of it, but no less than a safe pose backs off. It is less by what the
+// two times of an answer are rounded by.
 static double nsvcd__fraction_of(nsvcd__proof *p, double to, double fraction) {
   const nsvcd__motion *motion = p->arcs.motion;
   const double most = fraction > 0 ? fraction : 1;
@@ -54,7 +58,8 @@ static double nsvcd__fraction_of(nsvcd__proof *p, double to, double fraction) {
   }
   const double whole = fastest * (double)motion->ticks;
   const double least = fmin(to, fmax(0.25 * whole, NSVCD__EPSILONS * nsvcd__epsilon(p)));
-  return least < most * whole ? least / whole : most;
+  const double share = least < most * whole ? least / whole : most;
+  return fmax(share - NSVCD__TIME_ROUNDING, 0.5 * share);
 }
 
 // Prepares the proof for a question whose motion has been prepared. Returns what is asked of all of
@@ -325,7 +330,7 @@ static void nsvcd__write_time(nsvcd__proof *p, double clear_until, nsvcd_answer 
   const double until = fmin(fmax(clear_until / ticks, 0), 1);
   const double late = (double)answer->time.high - until;
   answer->time.low = (float)(until * (1 - 1e-7));
-  if (late > p->given.fraction * 1.0001 + 1e-6) answer->why = NSVCD_WHY_WORK;
+  if (late > p->given.fraction + 0.5 * NSVCD__TIME_ROUNDING) answer->why = NSVCD_WHY_WORK;
   // Closer poses are proven free here, but a new query from there could not prove it again.
   double u;
   const nsvcd__arc *arc = nsvcd__arc_at(&p->arcs, nsvcd__arc_of(motion, until * ticks, &u));
