@@ -86,7 +86,7 @@ def _are_many(bodies: Any) -> bool:
     """A sequence of bodies, and no (vertices, faces)."""
     if not isinstance(bodies, (list, tuple)) or isinstance(bodies, Mesh):
         return False
-    return len(bodies) != 2 or any(isinstance(body, (Body, str, os.PathLike)) or hasattr(body, "faces") for body in bodies)
+    return len(bodies) != 2 or any(isinstance(body, (Body, str, os.PathLike)) or hasattr(body, "vertices") for body in bodies)
 
 
 class _Side(NamedTuple):

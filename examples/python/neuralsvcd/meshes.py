@@ -38,7 +38,7 @@ class Mass(NamedTuple):
 
 
 class Surface(Protocol):
-    """What has vertices and faces: a trimesh.Trimesh, a Mesh."""
+    """What has vertices and faces: a trimesh.Trimesh, a Mesh. Of an open3d mesh, `triangles` are faces."""
     @property
     def vertices(self) -> Any: ...
     @property
@@ -169,6 +169,15 @@ def _placed(scale: float, origin: ArrayLike) -> NDArray[np.float64]:
     return placed
 
 
+# What others have that are no meshes here: an attribute of theirs, and what to write.
+_HINTS = {"geometry": "of a trimesh.Scene, scene.to_mesh()",
+          "cells_dict": "of a meshio.Mesh, (mesh.points, mesh.cells_dict['triangle'])",
+          "vectors": "of numpy-stl, (mesh.vectors.reshape(-1, 3), np.arange(3 * len(mesh.vectors)).reshape(-1, 3))",
+          "to_legacy": "of open3d.t, mesh.to_legacy()",
+          "simplices": "of a scipy.spatial.ConvexHull, Mesh.hull(hull.points)",
+          "triangulate": "of pyvista, (mesh.points, mesh.triangulate().faces.reshape(-1, 4)[:, 1:])"}
+
+
 def _surface_of(given: Any, faces: Optional[ArrayLike] = None, scale: float = 1,
                 origin: ArrayLike = (0, 0, 0)) -> tuple[Any, Any]:
     """Vertices and faces of what stands for a mesh."""
@@ -176,12 +185,12 @@ def _surface_of(given: Any, faces: Optional[ArrayLike] = None, scale: float = 1,
         return Mesh.load(given, scale, origin)
     if faces is not None:
         vertices = given
-    elif hasattr(given, "vertices") and hasattr(given, "faces"):
-        vertices, faces = given.vertices, given.faces
+    elif hasattr(given, "vertices") and (hasattr(given, "faces") or hasattr(given, "triangles")):
+        vertices, faces = given.vertices, given.faces if hasattr(given, "faces") else given.triangles
     elif isinstance(given, (tuple, list)) and len(given) == 2:
         vertices, faces = given
     else:
-        hint = ": of a trimesh.Scene, scene.to_mesh()" if hasattr(given, "geometry") else ""
+        hint = next((f": {text}" for name, text in _HINTS.items() if hasattr(given, name)), "")
         raise TypeError(f"a mesh is a path, (vertices, faces), or what has these, like a trimesh; not {type(given).__name__}{hint}")
     placed = _placed(scale, origin)
     if (placed != [0, 0, 0, 1]).any():

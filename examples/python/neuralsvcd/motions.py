@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Poses and motions: (k, 7), positions, or rigid matrices."""
+"""Poses and motions: (k, 7), positions, rigid matrices, and what is a pose elsewhere."""
 from __future__ import annotations
 
 import math
@@ -16,31 +16,90 @@ from ._arrays import Doubles, _floats, Floats
 _ORDERS = ("xyzw", "wxyz")
 
 
-def poses(given: ArrayLike, order: str = "xyzw", *, to: str = "xyzw") -> Doubles:
+def poses(given: Any, order: str = "xyzw", *, rotations: Any = None, to: str = "xyzw") -> Doubles:
     """Poses (..., 7), as all functions here take and return them: x y z in metres, unit quaternion x y z w.
 
-    given  (..., 7), (..., 3) positions without a rotation, or (..., 4, 4) rigid matrices, which take points as columns:
-           of pinocchio, [M.homogeneous for M in placements]
-    order  of the quaternions given: "xyzw" is that of scipy, pinocchio, ROS and PyBullet; "wxyz" that of MuJoCo and Eigen's
-           constructor: sweep(a, b, poses(qpos, order="wxyz"))
-    to     of those returned: poses(answer.safe.a, to="wxyz")
+    given      (..., 7), (..., 3) positions, or (..., 4, 4) rigid matrices, which take points as columns; or what is a pose
+               elsewhere, and lists of it: an SE3 of pinocchio or spatialmath, a Pose or a Transform of ROS, stamped or not, a
+               RigidTransform of scipy
+    order      of the quaternions given: "xyzw" is that of scipy, pinocchio, ROS and PyBullet; "wxyz" that of MuJoCo and
+               Eigen's constructor: sweep(a, b, poses(qpos, order="wxyz"))
+    rotations  apart from positions: (..., 4) quaternions, (..., 3, 3) or (..., 9) matrices, row by row, a Rotation of scipy; one
+               for each position, or one for all: poses(data.geom_xpos, rotations=data.geom_xmat) of MuJoCo's geoms,
+               poses(data.xpos, "wxyz", rotations=data.xquat) of its bodies
+    to         of those returned: poses(answer.safe.a, to="wxyz")
 
     ValueError where a matrix is not rigid to 1e-4, and for other shapes. Quaternions are not normalized.
     """
     for name, word in (("order", order), ("to", to)):
         if word not in _ORDERS:
             raise ValueError(f"{name}: {word!r} is none of {', '.join(_ORDERS)}")
-    rows = np.array(_rows(given, "poses"), np.float64)
-    if order != "xyzw" and np.shape(given)[-1:] == (7,):
+    array = _numbers(given, "poses")
+    if rotations is not None:
+        array = _joined(array, _numbers(rotations, "rotations"))
+    rows = np.array(_rows(array, "poses"), np.float64)
+    if order != "xyzw" and array.shape[-1:] == (7,):
         rows = rows[..., [0, 1, 2, 4, 5, 6, 3]]
     return rows if to == "xyzw" else rows[..., [0, 1, 2, 6, 3, 4, 5]]
 
 
+def _numbers(given: Any, name: str) -> NDArray[Any]:
+    leaf = given
+    while isinstance(leaf, (list, tuple)) and leaf:
+        leaf = leaf[0]
+    try:
+        array = np.asarray(given if isinstance(leaf, (float, int, np.ndarray)) else _plain(given))
+    except ValueError:
+        raise ValueError(f"{name}: rows of one length are needed; positions and rotations apart are "
+                         "poses(positions, rotations=rotations)") from None
+    if array.dtype.kind not in "fiu":
+        kind = type(leaf).__name__ if array.dtype.kind == "O" else array.dtype
+        raise TypeError(f"{name}: numbers are needed, or what is a pose elsewhere, as help(neuralsvcd.poses) lists, not {kind}")
+    return array
+
+
+def _plain(given: Any) -> Any:
+    """Numbers in place of what is a pose elsewhere, by the names that it has there."""
+    if hasattr(given, "A"):  # spatialmath.SE3; of several a list, of which numpy would see the first one
+        return given.A
+    if hasattr(given, "homogeneous"):  # pinocchio.SE3
+        return given.homogeneous
+    if hasattr(given, "as_matrix"):  # of scipy
+        return given.as_matrix()
+    given = getattr(given, "pose", getattr(given, "transform", given))  # of ROS, stamped; a Pose, a Transform
+    for place, turn in (("position", "orientation"), ("translation", "rotation")):
+        if hasattr(given, place) and hasattr(given, turn):
+            p, q = getattr(given, place), getattr(given, turn)
+            return [p.x, p.y, p.z, q.x, q.y, q.z, q.w]
+    if hasattr(given, "__array__"):
+        return np.asarray(given)
+    if isinstance(given, (str, bytes, memoryview)) or not hasattr(given, "__iter__"):
+        return given
+    return [_plain(each) for each in given]
+
+
+def _joined(positions: NDArray[Any], rotations: NDArray[Any]) -> NDArray[Any]:
+    """(..., 7) of quaternions in their order, or (..., 4, 4)."""
+    if rotations.shape[-1:] == (9,):
+        rotations = rotations.reshape(*rotations.shape[:-1], 3, 3)
+    are_quaternions = rotations.shape[-1:] == (4,)
+    each = positions.shape[:-1]
+    if positions.shape[-1:] == (3,) and (are_quaternions or rotations.shape[-2:] == (3, 3)):
+        end = rotations.shape[-1:] if are_quaternions else (3, 3)
+        if rotations.shape[:-len(end)] in (each, ()):
+            turns = np.broadcast_to(rotations, (*each, *end))
+            if are_quaternions:
+                return np.concatenate([positions, turns], -1)
+            matrices = np.zeros((*each, 4, 4))
+            matrices[..., :3, :3], matrices[..., :3, 3], matrices[..., 3, 3] = turns, positions, 1
+            return matrices
+    raise ValueError(f"rotations: (..., 3) positions and as many (..., 4), (..., 3, 3) or (..., 9) are needed, not "
+                     f"{positions.shape} and {rotations.shape}")
+
+
 def _rows(poses: Any, name: str) -> NDArray[Any]:
-    """Poses (..., 7), also where they are given as positions or as matrices."""
-    given = np.asarray(poses)
-    if given.dtype.kind not in "fiu":
-        raise TypeError(f"{name}: an array of numbers is needed, not of {given.dtype}")
+    """Poses (..., 7), also where they are given as positions, as matrices, or as what is a pose elsewhere."""
+    given = _numbers(poses, name)
     shape = given.shape
     if shape[-1:] == (7,):
         return given
@@ -48,13 +107,13 @@ def _rows(poses: Any, name: str) -> NDArray[Any]:
         return _of_matrices(given, name)
     if shape[-1:] == (3,):
         if shape[-2:] == (3, 3) and np.allclose(given @ np.swapaxes(given, -1, -2), np.eye(3), atol=1e-4):
-            raise ValueError(f"{name}: {shape}: a rotation matrix, or three positions? Give a rotation as a 4x4 matrix, "
-                             "positions as poses (3, 7)")
+            raise ValueError(f"{name}: {shape}: a rotation matrix, or three positions? Give a rotation with its positions: "
+                             "poses(positions, rotations=...); positions as poses (3, 7)")
         rows = np.zeros((*shape[:-1], 7), given.dtype if given.dtype.kind == "f" else np.float64)
         rows[..., :3], rows[..., 6] = given, 1
         return rows
     hint = {(3, 4): "a 3x4 matrix lacks its row 0 0 0 1", (6,): "6 numbers are a twist, or Euler angles: a pose has a quaternion",
-            (4,): "a quaternion alone lacks its position"}
+            (4,): "a quaternion alone lacks its position: poses(positions, rotations=...)"}
     why = next((text for end, text in hint.items() if shape[-len(end):] == end), "")
     raise ValueError(f"{name}: (..., 7), (..., 3) or (..., 4, 4) is needed, not {shape}" + (f": {why}" if why else ""))
 

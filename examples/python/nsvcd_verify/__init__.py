@@ -108,8 +108,8 @@ class Mesh:
     def __init__(self, mesh: Any, faces: Optional[ArrayLike] = None) -> None:
         if faces is not None:
             vertices = mesh
-        elif hasattr(mesh, "vertices") and hasattr(mesh, "faces"):
-            vertices, faces = mesh.vertices, mesh.faces
+        elif hasattr(mesh, "vertices") and (hasattr(mesh, "faces") or hasattr(mesh, "triangles")):
+            vertices, faces = mesh.vertices, mesh.faces if hasattr(mesh, "faces") else mesh.triangles
         elif isinstance(mesh, (tuple, list)) and len(mesh) == 2:
             vertices, faces = mesh
         else:
