@@ -71,7 +71,7 @@ script_of() {  # README, language
     while IFS=$'\t' read -r kind text; do
       case $kind in
         run) instead "$text" ;;
-        write) echo "cat >$text <<'END OF PROGRAM'" ;;
+        write) echo "cat >${text/#main.rs/src/main.rs} <<'END OF PROGRAM'" ;;
         text) printf '%s\n' "$text" ;;
         end) echo 'END OF PROGRAM' ;;
       esac
