@@ -2,7 +2,7 @@
 
 # What a change must pass beside `make test`, within 25 minutes on two cores; and what a release must: CONTRIBUTING.md says
 # what each catches. Programs that several of them use are made first, so that no two make the same file at once.
-CHECKS = text rooms header examples newcomer tools processor fast-math levels exact extremes motions sanitizers fuzz python bindings trainer benches formal trajectory
+CHECKS = text rooms header examples newcomer tools processor fast-math levels exact extremes motions sanitizers fuzz python ways trainer benches formal trajectory
 RELEASE = packages formal-all gradient tiles many 32 options robots rest one-path problems threads cross mingw firmware web sanitizers-all mutants
 CHECKED = build/svcd build/verify $(DEMOS) build/make_assets build/problems build/check_motions build/check_rest
 check:  ## what else a change must pass; the last line is `N passed, N failed, N skipped`; ONLY="text rooms"
@@ -120,8 +120,8 @@ check-python:
 	  $$python -c 'import matplotlib' 2>/dev/null || echo "check-python: no matplotlib: pictures not tested"; \
 	  $(MAKE) build/svcd build/_neuralsvcd.so build/_nsvcd_verify.so && cd examples/python && exec $$python -B -m unittest; exit 1; \
 	done; echo "check-python: no python3 with numpy: not tested"
-check-bindings:  # the packages for npm and crates.io: made, installed in an empty folder, asked
-	+CC="$(CC)" tests/bindings.sh
+check-ways:  # Python, npm, Rust, the page: word by word to a verdict on files of one's own; their packages
+	+CC="$(CC)" tests/ways.sh && tests/ways.sh --mutants
 # The examples for Windows, where MinGW is there (Debian: gcc-mingw-w64-x86-64).
 MINGW = x86_64-w64-mingw32-gcc
 $(EXAMPLES:%=%.exe): build/%.exe: examples/%.c $(wildcard examples/*.h) $(SCENERY) $(LIBRARY) | build

@@ -173,8 +173,7 @@ typedef struct nsvcd_question {
   // to_time is set
   float to;
   // how exact a FIRST has to be, as a fraction of the motion, up to 1: time.low to time.high is no
-  // longer than this, down to 5e-7: times are floats. If `to` is set as well, both hold. Default:
-  // only `to` holds
+  // longer, down to 5e-7, since they are floats. With `to`, both hold. Default: only `to` holds
   float to_time;
   // metres: coming within this distance is a hit; default 0: only meeting is
   float clearance;

@@ -1,5 +1,5 @@
 // The package of npm, from a folder that it is installed in, with mug.obj: what it answers, against what is known by hand, and
-// what it refuses. bindings.sh runs it with --expose-gc.
+// what it refuses. ways.sh runs it with --expose-gc.
 import assert from 'node:assert/strict';
 import {readFileSync} from 'node:fs';
 import {setTimeout} from 'node:timers/promises';
@@ -183,4 +183,4 @@ ball.dispose();
 ball.dispose();
 assert.throws(() => sweep({a, b}), /disposed/);
 assert.throws(() => ball.toBytes(), /disposed/);
-console.log(`bindings: npm: answers, files, errors; ${2 * times} bodies of ${(large.length / 1e6).toFixed(1)} MB freed`);
+console.log(`ways: npm: answers, files, errors; ${2 * times} bodies of ${(large.length / 1e6).toFixed(1)} MB freed`);
