@@ -65,7 +65,8 @@ def body_of(model: Any, geom: int, *, hulls: bool = True) -> nsvcd.Body:
 
 
 def pairs_of(model: Any) -> list[tuple[int, int]]:
-    """Geoms that MuJoCo would let collide: by their masks, not of one body, nor of a body and its parent."""
+    """Geoms that MuJoCo would let collide: by their masks, not of one body, nor of a body and its parent. <pair> and <exclude> are
+    not looked at."""
     welded = model.body_weldid[model.geom_bodyid]
     above = model.body_weldid[model.body_parentid[welded]]
     pairs = []

@@ -67,19 +67,24 @@ int main(int argc, char **argv) {
       const double x = hermite(points[0], points[1], i / 1e5);
       if (x > most) most = x, when = i / 1e5;
     }
-    CHECK(at(most + 0.2 + 0.001) && ask(points, 0, 9).verdict == GUARD_FREE);
-    CHECK(at(most + 0.2 - 0.001) && ask(points, 0, 9).verdict == GUARD_HIT);
+    CHECK(at(most + 0.2 + 0.001) && ask(points, 2, 9).verdict == GUARD_FREE);
+    CHECK(at(most + 0.2 - 0.001) && ask(points, 2, 9).verdict == GUARD_HIT);
     // and in a part of its time: free up to where the box comes to the wall, not beyond
     double touch = 0;
     while (hermite(points[0], points[1], touch) < most - 0.001) touch += 1e-6;
     CHECK(ask(points, 2, 2 + touch - 1e-4).verdict == GUARD_FREE);
     CHECK(ask(points, 2, 2 + touch + 1e-4).verdict == GUARD_HIT);
     CHECK(ask(points, 2 + when, 9).verdict == GUARD_HIT);
-    const guard_answer hit = ask(points, 0, 9);
+    const guard_answer hit = ask(points, 2, 9);
     CHECK(hit.a && hit.b && std::string(hit.a) == "box" && std::string(hit.b) == "wall" &&
           !hit.joint);
     CHECK(hit.free_until <= 2 + touch + 1e-6);
-    CHECK(ask(points, 0, 1).verdict == GUARD_FREE);  // before it begins it rests at its first point
+    // the way to its first point is not known, unless that is at 0: before that it rests there
+    CHECK(ask(points, 0, 1).verdict == GUARD_REFUSED &&
+          ask(points, 1.999, 3).verdict == GUARD_REFUSED);
+    std::vector<Point> early = points;
+    early[0].seconds = 0, early[1].seconds = 1;
+    CHECK(ask(early, -2, -1).verdict == GUARD_FREE && ask(early, -1, 9).verdict == GUARD_HIT);
   }
   CHECK(at(5));
   // several points: the pieces join, and a window over a knot is asked whole
@@ -113,7 +118,12 @@ int main(int argc, char **argv) {
                                                  {{{0}, none, none, 0}},
                                                  {{{0, nan, 0}, none, none, 0}},
                                                  {{zero, {0}, none, 0}, {zero, {0}, none, 1}},
-                                                 {{zero, none, none, nan}, three[1]}};
+                                                 {{zero, none, none, nan}, three[1]},
+                                                 {{zero, none, zero, 0}, {zero, none, zero, 1}},
+                                                 {{zero, none, none, 0}, {zero, zero, none, 1}},
+                                                 {{zero, zero, none, 0}, {zero, none, none, 1}},
+                                                 {{zero, zero, zero, 0}, {zero, zero, none, 1}},
+                                                 {{zero, zero, none, 0}, {zero, zero, zero, 1}}};
   for (const std::vector<Point> &points : wrong) {
     const guard_answer answer = ask(points, 0, 2);
     CHECK(answer.verdict == GUARD_REFUSED && answer.reason);

@@ -44,31 +44,39 @@ class TrajectoryGuard {
     return order;
   }
 
-  // Point: has vectors positions, velocities and accelerations, the latter two perhaps empty, as
-  // trajectory_msgs::msg::JointTrajectoryPoint. seconds_of(point): its time_from_start. Allocates nothing,
-  // throws nothing. A point whose vectors are too short is REFUSED.
+  // Point: has vectors positions, velocities and accelerations, the latter two perhaps empty, in all points
+  // alike, as trajectory_msgs::msg::JointTrajectoryPoint. seconds_of(point): its time_from_start.
+  // Allocates nothing, throws nothing. REFUSED is a point whose vectors are too short, and a first point that
+  // lies after both 0 and `from`: a controller comes there from where the robot is, which is to be a
+  // point before it.
   template <class Points, class SecondsOf>
   guard_answer check(const Points &points, const std::vector<std::size_t> &order,
                      SecondsOf seconds_of, double from, double to, double seconds) {
     guard_trajectory t = guard_trajectory();
     t.count = points.size();
-    if (t.count < 1 || t.count > times_.size() || order.size() != joints()) return refused();
+    if (t.count < 1 || t.count > times_.size()) return refused("no points, or too many");
+    if (order.size() != joints()) return refused("no order of this guard's joints");
     const std::size_t joints_of_all = order.size();
     const bool has_speed = !points.begin()->velocities.empty();
-    const bool has_both = has_speed && !points.begin()->accelerations.empty();
+    const bool has_both = !points.begin()->accelerations.empty();
+    if (has_both && !has_speed) return refused("accelerations without velocities");
     std::size_t at = 0;
     for (const auto &point : points) {
       times_[at / joints_of_all] = seconds_of(point);
+      if (point.velocities.empty() == has_speed || point.accelerations.empty() == has_both)
+        return refused("some points have velocities or accelerations, others have none");
       for (const std::size_t joint : order) {
         if (joint >= point.positions.size() || (has_speed && joint >= point.velocities.size()) ||
             (has_both && joint >= point.accelerations.size()))
-          return refused();
+          return refused("a point has too few numbers");
         positions_[at] = point.positions[joint];
         if (has_speed) velocities_[at] = point.velocities[joint];
         if (has_both) accelerations_[at] = point.accelerations[joint];
         at++;
       }
     }
+    if (times_[0] > 0 && from < times_[0])
+      return refused("the way to its first point is not known: begin with where the robot is");
     t.positions = positions_.data();
     t.velocities = has_speed ? velocities_.data() : nullptr;
     t.accelerations = has_both ? accelerations_.data() : nullptr;
@@ -81,10 +89,10 @@ class TrajectoryGuard {
   }
 
  private:
-  static guard_answer refused() {
+  static guard_answer refused(const char *reason) {
     guard_answer out = guard_answer();
     out.verdict = GUARD_REFUSED;
-    out.reason = "a point has too few numbers, or there are too many points";
+    out.reason = reason;
     return out;
   }
   std::unique_ptr<trajectory_guard, void (*)(trajectory_guard *)> guard_;

@@ -20,8 +20,8 @@ WHAT TO ASK
 
 MESHES AND BODIES
   A Body is a mesh, encoded for questions; it does not change. Where a body or a mesh is wanted there may also be the path of an
-  OBJ, STL, PLY or GLB file, (vertices, faces), or what has .vertices and .faces, like a trimesh.Trimesh. It is then encoded
-  for that call alone: what is asked about again is to be a Body.
+  OBJ, STL, PLY or GLB file, (vertices, faces), or what has .vertices and .faces, like a trimesh.Trimesh, or .triangles, like an
+  open3d mesh. It is then encoded for that call alone: what is asked about again is to be a Body.
 
     crate = Body.box([0.4, 0.3, 0.2])
     ball = Body.sphere(0.1)
@@ -36,8 +36,10 @@ MESHES AND BODIES
 POSES AND MOTIONS
   Metres and radians. A pose is x y z and a unit quaternion x y z w, (7,); a position alone, (3,); or a rigid matrix (4, 4), which
   takes points as columns. A motion is k of these, (k, 7), (k, 3) or (k, 4, 4), uniform in time from 0 to 1, or at times_a and
-  times_b: positions linear, rotations slerp in between. One pose is a body at rest; None is one at the origin. Quaternions are
-  w x y z in MuJoCo: poses(qpos, order="wxyz"). What is returned is x y z w: poses(answer.safe.a, to="wxyz").
+  times_b: positions linear, rotations slerp in between. One pose is a body at rest; None is one at the origin. A pose may also be
+  an SE3 of pinocchio or spatialmath, or a Pose or Transform of ROS. Quaternions are w x y z in MuJoCo: poses(qpos, order="wxyz").
+  Rotations apart from positions: poses(data.geom_xpos, rotations=data.geom_xmat); examples/python/mujoco_scene.py makes bodies of
+  geoms. What is returned is x y z w: poses(answer.safe.a, to="wxyz").
   Arrays may be of any numeric type and stride. They are copied: as float32, those of robots as float64.
 
 ANSWERS
@@ -86,7 +88,8 @@ ERRORS
 
 THREADS
   The interpreter's lock is released while the library works. Threads may share everything but a Robot and Movers; a World has
-  whoever changes it wait. sweep(..., threads=2) shares many motions among threads of its own.
+  whoever changes it wait. sweep(..., threads=2) shares many motions among threads of its own. Short questions, one by one, from
+  several threads wait for the lock: ask them in one call.
 
 COSTS
   A question takes some microseconds, of which Python's part is 8 to 10; in one call with many, half a microsecond
