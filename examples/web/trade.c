@@ -8,9 +8,10 @@
 #define NEURALSVCD_IMPLEMENTATION
 #include "../../neuralsvcd.h"
 #include "../../tests/arrays.h"
-#include "../../tests/bench/mesh.h"
 #include "../../tests/bench/sampler.h"
 #include "../scenery/shapes.h"
+
+const method *trade_hierarchy(void);  // trade_mesh.c
 
 #define EXPORT(name) __attribute__((export_name(#name))) name
 
@@ -24,7 +25,7 @@ typedef struct part {
   nsvcd_mesh mesh;
   const nsvcd_body *body;
   const nsvcd_body *latents;  // for the network; NULL: not yet encoded
-  void *tree;                 // mesh.h
+  void *tree;                 // the hierarchy's
 } part;
 
 // How the motions of a set come about: from somewhere in a box to somewhere in another one.
@@ -83,7 +84,7 @@ nsvcd_result EXPORT(trade_read)(size_t which, char *text, size_t size) {
   if (result) return result;
   workspace_size = nsvcd_sweep_workspace_size(NULL);
   if (!workspace) workspace = malloc(workspace_size);
-  p->tree = mesh_bvh_prepare(&p->mesh, NULL);
+  p->tree = trade_hierarchy()->prepare(&p->mesh, NULL);
   return workspace && p->tree ? NSVCD_OK : NSVCD_ERROR_MEMORY;
 }
 
@@ -198,7 +199,7 @@ void EXPORT(trade_ask_samples)(size_t samples, float near, size_t from, size_t t
   for (size_t i = from; i < to; i++) {
     sampler s;
     start_sampler(&s, trials[i].motion, 2, &origin, samples, order);
-    said[i] = (uint8_t)sweep_discrete(&full_mesh_method, moving->tree, fixed->tree, &s, near);
+    said[i] = (uint8_t)sweep_discrete(trade_hierarchy(), moving->tree, fixed->tree, &s, near);
   }
 }
 

@@ -1,198 +1,15 @@
-// trade.js - the page of the trade: what each method says of trade.c's motions, how long that takes
-// here, and a picture of one that it gets wrong. It comes after scene.js.
+// trade.js - trade.html: a handle along the front, what is missed there, a chart, and a picture of one
+// motion that is missed. It comes after trade_answers.js.
 
-const find = (id) => document.getElementById(id);
-
-// As trade.c has them.
-const MESHES = 3;
-const SETS = [
-  {name: 'Plate past rack', kind: 'thin and fast', story: 'A plate flies past a dish rack'},
-  {name: 'Mug past mug', kind: 'in the open', story: 'A mug flies past a mug'},
-  {name: 'Mug through rack', kind: 'in a hollow', story: 'A mug moves through a dish rack'},
-  {name: 'Plate into slot', kind: 'a close fit', story: 'A plate is put into a slot of a dish rack'},
-];
-// As neuralsvcd.h has them.
-const HIT = 2;
-const [FIRST, DISTANCE] = [1, 2];
-const SIZES = ['tiny', 'small', 'base'];
-const AT_REST = {position: [0, 0, 0], rotation: [0, 0, 0, 1]};
-
-// From fast to sure.
-const THICKER = 0.002;  // metres
-const SETTINGS = [
-  ...[4, 8, 16, 32, 64, 128].map((samples) =>
-    ({kind: 'samples', samples, near: 0, stop: samples, name: `${samples} samples`})),
-  ...[16, 64].map((samples) => ({kind: 'thicker', samples, near: THICKER, stop: samples,
-    name: `${samples} samples, ${1000 * THICKER} mm thicker`})),
-  ...SIZES.map((size, i) => ({kind: 'network', model: i + 1, stop: size, name: `network, ${size}`})),
-  {kind: 'proof', model: 0, stop: '', name: 'proof'},
-];
-const KINDS = {samples: ['samples of a motion', 'samples'],
-  thicker: [`${1000 * THICKER} mm thicker`, `+${1000 * THICKER} mm`], network: ['network', 'network'],
-  proof: ['proof', 'proof']};
-
-const CHUNK = 12;  // milliseconds that work may take before hands and eyes get their turn
-const GHOSTS = 9;  // of a method without samples
-
-// ---- the module
-
-// What stands in the page as base64 of gzip.
-async function unpacked(id) {
-  const packed = await fetch(`data:;base64,${find(id).textContent.trim()}`);
-  const plain = packed.body.pipeThrough(new DecompressionStream('gzip'));
-  return new Response(plain, {headers: {'content-type': 'application/wasm'}});
-}
-const c = (await WebAssembly.instantiateStreaming(unpacked('module')).catch((error) => {
-  find('error').textContent = `This browser cannot run the module: ${error.message}`;
-  throw error;
-})).instance.exports;
-// Views are made anew each time: those of memory that has grown are void.
-const floats = (at, count) => new Float32Array(c.memory.buffer, at, count);
-const words = (at, count) => new Uint32Array(c.memory.buffer, at, count);
-const bytes = (at, count) => new Uint8Array(c.memory.buffer, at, count);
-const COUNT = c.trade_count();
-const TRIAL = 60;  // bytes of a trial
-
-function check(result) {
-  if (!result)
-    return;
-  const text = bytes(c.trade_result_string(result), 200).slice();
-  throw new Error(new TextDecoder().decode(text.slice(0, text.indexOf(0))));
-}
-function readMeshes() {
-  for (let i = 0; i < MESHES; i++) {
-    const text = new TextEncoder().encode(find(`mesh-${i}`).textContent);
-    const at = c.trade_text(text.length);
-    bytes(at, text.length).set(text);
-    check(c.trade_read(i, at, text.length));
-  }
-}
-// nsvcd_mesh of A (0) or B (1), copied.
-function mesh(which) {
-  const [positions, indices, vertices, triangles] = words(c.trade_mesh(which), 4);
-  return {positions: floats(positions, 3 * vertices).slice(),
-    indices: words(indices, 3 * triangles).slice()};
-}
-const pose = (f) => ({position: [...f.slice(0, 3)], rotation: [...f.slice(3, 7)]});
-const motionOf = (i) =>
-  [0, 28].map((past) => pose(floats(c.trade_trials() + TRIAL * i + past, 7)));
-const isHit = (i) => words(c.trade_trials() + TRIAL * i + 56, 1)[0] === 1;
-
-function ask({samples, near, model}, from, to) {
-  if (samples)
-    c.trade_ask_samples(samples, near, from, to);
-  else
-    check(c.trade_ask(model, from, to));
-}
-
-// The library's answer about a part of a motion, which may go backwards; times are the motion's.
-function look(i, from, to, kind) {
-  const motion = motionOf(i);
-  const ends = [from, to].map((t) => between(...motion, t));
-  floats(c.trade_motion(), 14).set(
-    ends.flatMap(({position, rotation}) => [...position, ...rotation]));
-  check(c.trade_look(kind));
-  const f = floats(c.trade_answer(), 102);  // nsvcd_answer
-  const w = words(c.trade_answer(), 102);
-  const time = (t) => from + (to - from) * t;
-  return {hits: w[0] === HIT, first: time(f[5]), distance: f[6], time: time(f[87]),
-    point: [...f.slice(80, 83)], triangles: [w[88], w[89]]};
-}
-
-// ---- what is known: of each set its motions, and of each setting what it says of them
-
-const known = SETS.map(() => ({trials: null, answers: SETTINGS.map(() => null)}));
-let set = 0;
-let setting = 2;
+const ROUNDS = 4;  // in which times are measured: the least counts
+let setting = 2;   // of SETTINGS
 let shown = null;  // the number of the motion in the picture
-let job = 0;       // the number of the work that goes on behind; it ends when there is a later one
-const answers = () => known[set].answers;
-const counts = ({missed, alarms}) => missed.length + alarms.length;
-
-const pause = () => new Promise((resolve) => setTimeout(resolve));
-
-// Resolves to false if another set was chosen meanwhile.
-async function makeMotions(mine) {
-  c.trade_choose(set);
-  const trials = () => bytes(c.trade_trials(), TRIAL * COUNT);
-  if (known[set].trials) {
-    trials().set(known[set].trials);
-    return true;
-  }
-  for (let i = 0; i < COUNT;) {
-    for (const end = performance.now() + CHUNK; i < COUNT && performance.now() < end; i++)
-      c.trade_make(i, i + 1);
-    await pause();
-    if (mine !== job)
-      return false;
-  }
-  known[set].trials = trials().slice();
-  return true;
-}
-
-// All about one setting but the time that it takes.
-function answer(which) {
-  if (answers()[which])
-    return answers()[which];
-  const start = performance.now();
-  ask(SETTINGS[which], 0, COUNT);
-  const took = performance.now() - start;
-  const said = bytes(c.trade_said(), COUNT).slice();
-  const all = Array.from(said, (_, i) => i);
-  const missed = all.filter((i) => isHit(i) && !said[i]).map((i) => missedBy(SETTINGS[which], i));
-  const alarms = all.filter((i) => !isHit(i) && said[i])
-    .map((i) => ({i, ...look(i, 0, 1, DISTANCE)}));
-  missed.sort((a, b) => b.share - a.share);
-  alarms.sort((a, b) => b.distance - a.distance);
-  return answers()[which] = {missed, alarms, took, time: null};
-}
-
-// Of a hit: the gaps between samples in which it touches, the share of the motion from the first touch
-// to the last one in these, and the first contact. A method without samples has but one gap.
-function missedBy({samples}, i) {
-  const parts = samples ? samples - 1 : 1;
-  const gaps = [];
-  let share = 0;
-  let contact = null;
-  for (let at = 0; at < parts; at = gaps.at(-1) + 1) {
-    const touch = look(i, at / parts, 1, FIRST);
-    if (!touch.hits)
-      break;
-    const gap = Math.min(parts - 1, Math.max(at, Math.floor(touch.first * parts)));
-    const last = look(i, (gap + 1) / parts, gap / parts, FIRST);
-    share += Math.max(0, last.first - touch.first);
-    contact ??= {...touch, last: last.first};
-    gaps.push(gap);
-  }
-  return {i, parts, gaps, share, ...contact};
-}
-
-// Microseconds of a motion: the least of three runs. It is measured in pieces, so that the page stays
-// awake, but in none that are too short for a browser's clock.
-async function measure(which, mine) {
-  const {took} = answer(which);
-  const step = Math.min(COUNT, Math.max(10, Math.floor(COUNT * CHUNK / took)));
-  const times = Math.max(1, Math.ceil(CHUNK / took));
-  let total = 0;
-  for (let from = 0; from < COUNT; from += step) {
-    const to = Math.min(COUNT, from + step);
-    let least = Infinity;
-    for (let run = 0; run < 3; run++) {
-      const start = performance.now();
-      for (let i = 0; i < times; i++)
-        ask(SETTINGS[which], from, to);
-      least = Math.min(least, (performance.now() - start) / times);
-      await pause();
-      if (mine !== job)
-        return;
-    }
-    total += least;
-  }
-  answers()[which].time = 1000 * total / COUNT;
-}
+let ready = false;  // the set's motions are made
 
 // One after the other: first what every setting says, then how long it takes.
 async function work(mine) {
+  if (known[set].measured)
+    return;
   for (let which = 0; which < SETTINGS.length; which++) {
     answer(which);
     showNumbers();
@@ -200,14 +17,15 @@ async function work(mine) {
     if (mine !== job)
       return;
   }
-  const first = [setting, ...SETTINGS.keys()];
-  for (const which of first) {
-    if (answers()[which].time === null)
+  for (let round = 0; round < ROUNDS; round++)
+    for (const which of SETTINGS.keys()) {
       await measure(which, mine);
-    if (mine !== job)
-      return;
-    showNumbers();
-  }
+      if (mine !== job)
+        return;
+      showNumbers();
+    }
+  known[set].measured = true;
+  performance.mark('measured');
 }
 
 // ---- words
@@ -215,7 +33,8 @@ async function work(mine) {
 const show = (id, text) => {
   find(id).textContent = text;
 };
-const percent = (share) => share < 0.001 ? 'less than 0.1 %' : `${(100 * share).toPrecision(share < 0.1 ? 1 : 2)} %`;
+const percent = (share) => share < 0.001 ? 'less than 0.1\u00a0%' :
+  `${(100 * share).toPrecision(share < 0.095 ? 1 : 2)}\u00a0%`;
 const micro = (time) => time === null ? '…' : time.toPrecision(time < 100 ? 2 : 3);
 const of = (some, what) => `${some || 'none'} of ${COUNT / 2} ${what}`;
 
@@ -243,11 +62,11 @@ function sentence(it) {
     return '';
   if (it.gaps === undefined)
     return `This one is free: never nearer than ${(1000 * it.distance).toPrecision(2)} mm.`;
-  const from = `first at ${percent(it.first)} of the motion`;
+  const from = `first at ${percent(it.time)} of the motion`;
   if (!it.isWrong)
     return `This one is found: it touches ${from}.`;
   if (!samples)
-    return `This one touches ${from}, for ${percent(it.share)} of it. The ${kind} takes it for free.`;
+    return `This one touches ${from}, for ${percent(it.share)} of it. The ${kind} says that it is free.`;
   const [gap, ...more] = it.gaps;
   const others = more.length > 1 ? `, and in ${more.length} more gaps` : more.length ? ', and in one more gap' : '';
   return `This one touches between sample ${gap + 1} and ${gap + 2}${others}, for ${percent(it.share)} of the motion.`;
@@ -258,8 +77,9 @@ function showMotion() {
   show('number', list.length ? `${at < 0 ? '–' : at + 1} of ${list.length} wrong` : 'none wrong');
   find('previous').disabled = find('next').disabled = list.length < 2 && at >= 0 || !list.length;
   show('this', sentence(it));
+  find('this').dataset.motion = it.i;
   const key = it?.gaps === undefined ? [['free', 'free']] : it.isWrong && SETTINGS[setting].samples ?
-    [['free', 'samples, all free'], ['hit', 'missed between them']] : [['free', 'before'], ['hit', 'contact']];
+    [['free', 'samples, all free'], ['hit', 'missed between them']] : [['free', 'free'], ['hit', 'touching']];
   find('key').innerHTML = key.map(([colour, words]) =>
     `<span><i style="background: var(--${colour})"></i>${words}</span>`).join('');
 }
@@ -273,7 +93,7 @@ function tell() {
 
 // ---- the chart and the table
 
-const BOX = {left: 52, right: 352, top: 8, none: 34, first: 48, bottom: 218};
+const BOX = {left: 52, right: 352, top: 8, none: 34, first: 48, bottom: 204};
 let points = [];  // of the chart: {which, x, y}
 
 function axes() {
@@ -322,7 +142,7 @@ function drawChart() {
   if (here) {
     const isLeft = here.x < (BOX.left + BOX.right) / 2;
     out += `<circle cx="${here.x}" cy="${here.y}" r="10" fill="none" stroke="var(--accent)" stroke-width="3"/>` +
-      svgText(here.x + (isLeft ? 15 : -15), here.y + (here.y > BOX.bottom - 12 ? -12 : here.y < BOX.none ? 4 : 16),
+      svgText(here.x + (isLeft ? 8 : -8), here.y + (here.y < BOX.first + 20 ? 22 : -13),
         SETTINGS[setting].name, `class="chosen" text-anchor="${isLeft ? 'start' : 'end'}"`);
   }
   find('chart').innerHTML = out;
@@ -340,8 +160,9 @@ function showNumbers() {
 
 const canvas = find('canvas');
 const view = {yaw: 0, pitch: 0.35, zoom: 1, target: [0, 0, 0], size: 1};
+const GHOSTS = 9;  // of a method without samples
 let scene = null;  // comes after the first answer
-let bodies = [];   // A and B: meshes, and A's middle and radius
+let bodies = [];   // A and B: meshes, their middles and radii
 const colours = {};
 function readColours() {
   const style = getComputedStyle(document.documentElement);
@@ -364,28 +185,31 @@ function current() {
 
 function loadBodies() {
   bodies = [0, 1].map(mesh);
-  const {positions} = bodies[0];
-  const [low, high] = [[...positions.slice(0, 3)], [...positions.slice(0, 3)]];
-  positions.forEach((x, k) => {
-    low[k % 3] = Math.min(low[k % 3], x);
-    high[k % 3] = Math.max(high[k % 3], x);
-  });
-  bodies[0].middle = scaled(add(low, high), 0.5);
-  bodies[0].radius = length(subtract(high, low)) / 2;
+  for (const body of bodies) {
+    const {positions} = body;
+    const [low, high] = [[...positions.slice(0, 3)], [...positions.slice(0, 3)]];
+    positions.forEach((x, k) => {
+      low[k % 3] = Math.min(low[k % 3], x);
+      high[k % 3] = Math.max(high[k % 3], x);
+    });
+    body.middle = scaled(add(low, high), 0.5);
+    body.radius = length(subtract(high, low)) / 2;
+  }
   for (let which = 0; scene && which < 2; which++)
     scene.loadMesh(`body-${which}`, bodies[which]);
 }
 
-// Where the motion goes from left to right, from the side on which the contact is; near enough to see
-// the gap between two samples.
+// From that side of the motion on which the contact is; near enough to see the gap between two samples.
 function aimView() {
   const {it} = current();
   const motion = motionOf(it.i);
   const way = subtract(motion[1].position, motion[0].position);
-  const time = it.first ?? it.time;
+  const time = it.time;
   const middle = apply(between(...motion, time), 1, bodies[0].middle);
-  view.yaw = Math.atan2(way[1], way[0]) - Math.PI / 2;
-  view.pitch = 0.35;
+  const aside = Math.atan2(way[1], way[0]) - Math.PI / 2 + 0.4;
+  const [x, y] = subtract(it.point, bodies[1].middle);
+  view.yaw = x * Math.cos(aside) + y * Math.sin(aside) < 0 ? aside + Math.PI : aside;
+  view.pitch = 0.3;
   view.zoom = 1;
   view.target = scaled(add(middle, it.point), 0.5);
   view.size = bodies[0].radius + length(way) / Math.max(4, it.parts ?? 0) / 2;
@@ -419,27 +243,56 @@ function marks(from, {triangles, point}, poses) {
 // Samples; those on both sides of the contact are plainer than the others.
 function ghosts(it, motion, time) {
   const parts = it.isWrong && it.parts > 1 ? it.parts : GHOSTS - 1;
-  const colourAt = (t) => colours[it.gaps && parts !== it.parts && t > time ? 'hit' : 'free'];
+  const colourAt = (t) => colours[it.gaps && parts !== it.parts && t > time && t < time + it.share ?
+    'hit' : 'free'];
   return Array.from({length: parts + 1}, (_, k) => k / parts).filter((t) => Math.abs(t - time) > 0.003)
     .map((t) => ({mesh: 'body-0', pose: between(...motion, t), size: 1, colour: colourAt(t),
       alpha: Math.abs(t - time) * parts <= 1 ? 0.5 : 0.13}));
 }
 
+function place(id, at) {
+  find(id).hidden = !at;
+  if (at)
+    [find(id).style.left, find(id).style.top] = at.map((x) => `${x}px`);
+}
+// The numbers of the samples before and after the contact, above them; apart, if need be.
+function labelSamples(from, {isWrong, parts, gaps}, motion) {
+  const isSampled = isWrong && parts > 1;
+  const places = ['before', 'after'].map((id, after) => {
+    const pose = between(...motion, isSampled ? (gaps[0] + after) / parts : 0);
+    const middle = apply(pose, 1, bodies[0].middle);
+    const at = toScreen(from, add(middle, scaled(from.up, 0.75 * bodies[0].radius)));
+    show(id, isSampled && at ? gaps[0] + 1 + after : '');
+    return at;
+  });
+  if (places.every(Boolean)) {
+    const short = Math.max(0, 26 - Math.abs(places[1][0] - places[0][0])) / 2;
+    places[0][0] -= short;
+    places[1][0] += short;
+    places.forEach((at) => {
+      at[1] = Math.max(22, Math.min(places[0][1], places[1][1]));
+    });
+  }
+  place('before', places[0]);
+  place('after', places[1]);
+}
+
 function draw() {
+  if (!ready)
+    return;
   const {it} = current();
   const from = camera();
   const at = toScreen(from, it.point);
-  find('ring').hidden = !at;
-  if (at)
-    [find('ring').style.left, find('ring').style.top] = at.map((x) => `${x}px`);
+  const motion = motionOf(it.i);
+  const time = it.time;
+  const moved = between(...motion, time);
+  place('ring', at);
+  labelSamples(from, it, motion);
   if (!scene)
     return;
   const size = [from.width, from.height].map((pixels) => Math.round(pixels * devicePixelRatio));
   if (canvas.width !== size[0] || canvas.height !== size[1])  // what is set is cleared
     [canvas.width, canvas.height] = size;
-  const motion = motionOf(it.i);
-  const time = it.first ?? it.time;
-  const moved = between(...motion, time);
   scene.draw(from, [
     {mesh: 'body-1', pose: AT_REST, size: 1, colour: colours['body-b'], alpha: 1},
     {mesh: 'body-0', pose: moved, size: 1, colour: colours[it.gaps ? 'hit' : 'free'], alpha: 1},
@@ -458,57 +311,51 @@ function redraw() {
 // Another setting shows the same motion, if it is wrong about that as well, or about none.
 function choose(which) {
   setting = which;
-  const {list, at} = current();
-  if (at < 0 && list.length)
-    shown = list[0].i;
   find('setting').value = which;
   find('setting').setAttribute('aria-valuetext', SETTINGS[which].name);
   find('stops').querySelectorAll('[data-which]').forEach((stop) =>
     stop.classList.toggle('chosen', Number(stop.dataset.which) === which));
-  showAll(true);
+  if (!ready)
+    return;
+  const {list, at} = current();
+  if (at < 0 && list.length)
+    shown = list[0].i;
+  showAll();
 }
-function showAll(anew) {
+function showAll() {
   showSummary();
   showMotion();
   showNumbers();
   tell();
-  if (anew)
-    aimView();
+  aimView();
   redraw();
 }
 function step(by) {
+  if (!ready)
+    return;
   const {list, at} = current();
   shown = list[(Math.max(at, -1) + by + list.length) % list.length].i;
-  showAll(true);
+  showAll();
 }
 async function chooseSet(which) {
   const mine = ++job;
   set = which;
-  show('story', `${SETS[set].story}. Of ${COUNT} motions, half touch something, often for a moment.`);
+  ready = false;
+  show('story', `${SETS[set].story}, ${COUNT} times; ${COUNT / 2} times they touch.`);
   show('summary', 'Making the motions');
   if (!await makeMotions(mine))
     return;
+  ready = true;
   shown = 1;
   loadBodies();
   choose(setting);
+  performance.mark('first-answer');
   URL.revokeObjectURL(find('save').href);
   find('save').href = URL.createObjectURL(new Blob([problems()]));
   if (!scene)
     startDrawing();
   await pause();
   await work(mine);
-}
-
-// The motions as a problem file, see examples/FORMATS.md.
-function problems() {
-  const names = [['plate', 'dish_rack'], ['mug', 'mug'], ['mug', 'dish_rack'], ['plate', 'dish_rack']][set];
-  const lines = ['nsvcd-problems 1', ...[...new Set(names)].map((name) => `mesh ${name} ${name}.obj`)];
-  for (let i = 0; i < COUNT; i++) {
-    lines.push(`problem ${i} ${names[0]} 1 ${names[1]} 1  0 0 0  0 0 0 1  ${Number(isHit(i))} nan 2`);
-    for (const {position, rotation} of motionOf(i))
-      lines.push([...position, ...rotation].map((x) => x.toPrecision(9)).join(' '));
-  }
-  return `${lines.join('\n')}\n`;
 }
 
 // ---- hands
@@ -617,7 +464,6 @@ function startDrawing() {
   new ResizeObserver(redraw).observe(canvas);
 }
 
-readMeshes();
 makeSets();
 makeStops();
 readColours();
