@@ -5,6 +5,7 @@
 What samples miss is counted once more: build/svcd is asked about each sample by itself. The helpers are test_page.py's.
 """
 
+import math
 import re
 import subprocess
 import sys
@@ -16,8 +17,6 @@ from pathlib import Path
 from selenium.webdriver.common.by import By
 from selenium.webdriver.common.keys import Keys
 from test_page import ASSETS, PAGE, PICTURE, SIZES, SVCD, Hands
-
-import math
 
 TRIALS = 400
 FIRST_ANSWER = 1000  # ms from the page's script to its first answer, at best of three; beside other work
@@ -116,7 +115,7 @@ class Trade(Hands):
     def test_sentences_are_true(self):
         motions = self.motions()
         times = [time for _, time in motions.check(motions.poses, "--first", "0.0001")]
-        for _ in range(20):
+        for _ in range(8):
             words = self.find("this")
             first, last, share = re.match(r"This one touches between sample (\d+) and (\d+).*, for (\S+)\s%", words.text).groups()
             self.assertEqual(int(last), int(first) + 1)
@@ -125,7 +124,7 @@ class Trade(Hands):
             self.assertLess(float(share), 100)
             self.assertEqual([self.text("before"), self.text("after")], [first, last])
             self.click("#next")
-        self.assertTrue(self.text("number").startswith("21 of "))
+        self.assertTrue(self.text("number").startswith("9 of "))
 
     def test_more_samples_miss_no_more(self):
         for number in range(SETS):
@@ -163,16 +162,16 @@ class Trade(Hands):
     def colours_about(self, element) -> list:
         """The colours in a square of 60 pixels about an element's middle, as they are on the screen."""
         return self.browser.execute_async_script("""
-            const [coded, x, y, done] = arguments;
+            const [coded, element, done] = arguments;
+            const {x, y, width, height} = element.getBoundingClientRect();
             const image = new Image();
             image.onload = () => {
               const context = new OffscreenCanvas(60, 60).getContext('2d');
-              context.drawImage(image, 30 - x, 30 - y);
+              context.drawImage(image, 30 - x - width / 2, 30 - y - height / 2);
               const {data} = context.getImageData(0, 0, 60, 60);
               done(Array.from({length: 3600}, (_, i) => [...data.slice(4 * i, 4 * i + 3)]));
             };
-            image.src = `data:image/png;base64,${coded}`;""", self.browser.get_screenshot_as_base64(),
-            *(element.rect[k] + element.rect[s] / 2 for k, s in (("x", "width"), ("y", "height"))))
+            image.src = `data:image/png;base64,${coded}`;""", self.browser.get_screenshot_as_base64(), element)
 
     def test_picture_marks_the_contact(self):
         self.browser.execute_script("document.getElementById('ring').style.opacity = 0")  # what it is about
@@ -180,7 +179,7 @@ class Trade(Hands):
         for _ in range(3):
             self.frames()
             colours = self.colours_about(self.find("ring"))
-            self.assertTrue(any(b > r + 90 and b > g + 60 for r, g, b in colours), "the rack's triangle")
+            self.assertTrue(any(b > r + 60 and b > g + 40 for r, g, b in colours), "the rack's triangle")
             self.assertTrue(any(r > b + 150 and g > b + 90 for r, g, b in colours), "the plate's triangle")
             self.assertTrue(any(r > g + 90 and r > b + 90 for r, g, b in colours), "the plate, where it touches")
             pictures.add(self.find("canvas").screenshot_as_base64)

@@ -374,8 +374,8 @@ function makeStops() {
   find('stops').innerHTML = SETTINGS.map(({kind, stop}, i) =>
     `<span data-which="${i}"${kind === 'network' ? ' class="long"' : ''}>${stop}</span>`).join('') +
     Object.entries(KINDS).map(([kind, [long, short]]) => `<span class="group" style="border-color: var(--${kind
-    }); grid-column: span ${SETTINGS.filter((s) => s.kind === kind).length}">${
-      innerWidth > 860 ? long : short}</span>`).join('');
+    }); grid-column: span ${SETTINGS.filter((s) => s.kind === kind).length}"><span class="long">${long
+    }</span><span class="short">${short}</span></span>`).join('');
   find('legend').innerHTML = Object.entries(KINDS).map(([kind, [long]]) =>
     `<span><i style="background: var(--${kind})"></i>${long}</span>`).join('');
 }
