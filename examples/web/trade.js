@@ -1,4 +1,4 @@
-// trade.js - trade.html: a handle along the front, what is missed there, a chart, and a picture of one
+// trade.js - trade.html: a handle along the front, what is missed there, a chart, and a picture of a
 // motion that is missed. It comes after trade_answers.js.
 
 const ROUNDS = 4;  // in which times are measured: the least counts
@@ -39,37 +39,39 @@ const micro = (time) => time === null ? '…' : time.toPrecision(time < 100 ? 2 
 const of = (some, what) => `${some || 'none'} of ${COUNT / 2} ${what}`;
 
 function subject({kind, name}) {
-  return kind === 'network' ? `The ${name},` : kind === 'proof' ? 'The proof' : `${name[0].toUpperCase()}${name.slice(1)}`;
+  return {samples: name, thicker: `${name},`, network: `The ${name},`, proof: 'The proof'}[kind];
 }
+const BY_DEFINITION = `By definition: here a motion hits if the proof says so. Whether that is right was
+  measured <a href="https://github.com/OWNER/neuralsvcd.h/blob/main/tests/bench/RESULTS.md#on-every-set"
+  >against exact labels</a>.`;
 function showSummary() {
   const {kind, samples} = SETTINGS[setting];
   const {missed, alarms, time} = answer(setting);
   const said = document.createElement('b');
   said.textContent = of(missed.length, 'hits');
-  find('summary').replaceChildren(`${subject(SETTINGS[setting])} ${samples ? 'miss' : 'misses'} `, said);
+  const verb = samples ? 'miss' : 'misses';
+  find('summary').replaceChildren(`${subject(SETTINGS[setting])} ${verb} `, said);
   find('summary').className = missed.length ? '' : 'right';
-  find('rest').innerHTML = (kind === 'proof' ? `By definition: here a motion hits if the proof says so. Whether that is
-      right was measured <a href="https://github.com/OWNER/neuralsvcd.h/blob/main/tests/bench/RESULTS.md#on-every-set"
-      >against exact labels</a>.` :
-    `False alarms: <strong>${of(alarms.length, 'free motions')}</strong>.`) +
-    ` <strong><span id="time">${micro(time)}</span> µs</strong> a motion, in this browser.`;
+  const others = kind === 'proof' ? BY_DEFINITION :
+    `False alarms: <strong>${of(alarms.length, 'free motions')}</strong>.`;
+  find('rest').innerHTML = `${others}
+    <strong><span id="time">${micro(time)}</span> µs</strong> a motion, in this browser.`;
 }
 
 // What the picture shows, in a sentence.
 function sentence(it) {
   const {kind, samples} = SETTINGS[setting];
-  if (!it)
-    return '';
-  if (it.gaps === undefined)
+  if (!it.gaps)
     return `This one is free: never nearer than ${(1000 * it.distance).toPrecision(2)} mm.`;
   const from = `first at ${percent(it.time)} of the motion`;
   if (!it.isWrong)
     return `This one is found: it touches ${from}.`;
   if (!samples)
-    return `This one touches ${from}, for ${percent(it.share)} of it. The ${kind} says that it is free.`;
+    return `This one touches ${from}, for ${percent(it.share)} of it. The ${kind} says it is free.`;
   const [gap, ...more] = it.gaps;
-  const others = more.length > 1 ? `, and in ${more.length} more gaps` : more.length ? ', and in one more gap' : '';
-  return `This one touches between sample ${gap + 1} and ${gap + 2}${others}, for ${percent(it.share)} of the motion.`;
+  const others = more.length ? `, and in ${more.length} more gap${more.length > 1 ? 's' : ''}` : '';
+  return `This one touches between sample ${gap + 1} and ${gap + 2}${others}, for ${
+    percent(it.share)} of the motion.`;
 }
 
 function showMotion() {
@@ -78,8 +80,9 @@ function showMotion() {
   find('previous').disabled = find('next').disabled = list.length < 2 && at >= 0 || !list.length;
   show('this', sentence(it));
   find('this').dataset.motion = it.i;
-  const key = it?.gaps === undefined ? [['free', 'free']] : it.isWrong && SETTINGS[setting].samples ?
-    [['free', 'samples, all free'], ['hit', 'missed between them']] : [['free', 'free'], ['hit', 'touching']];
+  const key = !it.gaps ? [['free', 'free']] : it.isWrong && it.parts > 1 ?
+    [['free', 'samples, all free'], ['hit', 'missed between them']] :
+    [['free', 'free'], ['hit', 'touching']];
   find('key').innerHTML = key.map(([colour, words]) =>
     `<span><i style="background: var(--${colour})"></i>${words}</span>`).join('');
 }
@@ -88,7 +91,8 @@ function showMotion() {
 let telling = 0;
 function tell() {
   clearTimeout(telling);
-  telling = setTimeout(() => show('status', `${find('summary').textContent}. ${find('this').textContent}`), 600);
+  telling = setTimeout(() =>
+    show('status', `${find('summary').textContent}. ${find('this').textContent}`), 600);
 }
 
 // ---- the chart and the table
@@ -101,20 +105,21 @@ function axes() {
   const low = Math.floor(Math.log10(Math.min(1, ...times) / 1.2));
   const high = Math.ceil(Math.log10(Math.max(10, ...times) * 1.2));
   const x = (time) => BOX.left + (BOX.right - BOX.left) * (Math.log10(time) - low) / (high - low);
-  const y = (wrong) => wrong ? BOX.first + (BOX.bottom - BOX.first) * Math.log10(wrong) / Math.log10(COUNT) :
-    (BOX.top + BOX.none) / 2;
+  const y = (wrong) => !wrong ? (BOX.top + BOX.none) / 2 :
+    BOX.first + (BOX.bottom - BOX.first) * Math.log10(wrong) / Math.log10(COUNT);
   return {x, y, decades: Array.from({length: high - low + 1}, (_, i) => 10 ** (low + i))};
 }
 const svgText = (x, y, text, more = '') => `<text x="${x}" y="${y}" ${more}>${text}</text>`;
 
 function frameOf({x, y, decades}) {
   const {left, right, top, none, bottom} = BOX;
-  let out = `<rect class="none" x="${left}" y="${top}" width="${right - left}" height="${none - top}"/>
-    <rect class="frame" x="${left}" y="${top}" width="${right - left}" height="${bottom - top}"/>`;
-  for (const time of decades)
-    out += `<path class="frame" d="M${x(time)} ${top}V${bottom}"/>` +
-      svgText(x(time), bottom + 16, time < 1000 ? `${time} µs` : `${time / 1000} ms`, `text-anchor="${
-        time === decades[0] ? 'start' : time === decades.at(-1) ? 'end' : 'middle'}"`);
+  let out = `<path class="none" d="M${left} ${top}H${right}V${none}H${left}Z"/>
+    <path class="frame" d="M${left} ${top}H${right}V${bottom}H${left}Z"/>`;
+  for (const time of decades) {
+    const anchor = time === decades[0] ? 'start' : time === decades.at(-1) ? 'end' : 'middle';
+    out += `<path class="frame" d="M${x(time)} ${top}V${bottom}"/>` + svgText(x(time), bottom + 16,
+      time < 1000 ? `${time} µs` : `${time / 1000} ms`, `text-anchor="${anchor}"`);
+  }
   for (let wrong = 1; wrong < COUNT; wrong *= 10)
     out += `<path class="frame" d="M${left} ${y(wrong)}H${right}"/>` +
       svgText(left - 6, y(wrong) + 4, wrong, 'text-anchor="end"');
@@ -133,7 +138,7 @@ function drawChart() {
     const mine = points.filter(({which}) => SETTINGS[which].kind === kind);
     const colour = `var(--${kind})`;
     if (mine.length > 1)
-      out += `<path d="M${mine.map((p) => `${p.x} ${p.y}`).join('L')}" stroke="${colour}" stroke-width="1.6"/>`;
+      out += `<path d="M${mine.map((p) => `${p.x} ${p.y}`).join('L')}" stroke="${colour}"/>`;
     for (const p of mine)
       out += `<circle cx="${p.x}" cy="${p.y}" r="${kind === 'proof' ? 6 : 4}" fill="${colour}"
         ><title>${SETTINGS[p.which].name}</title></circle>`;
@@ -141,7 +146,7 @@ function drawChart() {
   const here = points.find(({which}) => which === setting);
   if (here) {
     const isLeft = here.x < (BOX.left + BOX.right) / 2;
-    out += `<circle cx="${here.x}" cy="${here.y}" r="10" fill="none" stroke="var(--accent)" stroke-width="3"/>` +
+    out += `<circle class="chosen" cx="${here.x}" cy="${here.y}" r="10"/>` +
       svgText(here.x + (isLeft ? 8 : -8), here.y + (here.y < BOX.first + 20 ? 22 : -13),
         SETTINGS[setting].name, `class="chosen" text-anchor="${isLeft ? 'start' : 'end'}"`);
   }
@@ -149,9 +154,12 @@ function drawChart() {
 }
 
 function showNumbers() {
-  find('rows').innerHTML = answers().map((a, which) => `<tr${which === setting ? ' aria-current="true"' : ''
-  }><th scope="row">${SETTINGS[which].name}</th><td>${micro(a?.time ?? null)}</td><td>${a?.missed.length ?? '…'
-  }</td><td>${a?.alarms.length ?? '…'}</td></tr>`).join('');
+  find('rows').innerHTML = answers().map((a, which) => {
+    const current = which === setting ? ' aria-current="true"' : '';
+    const cells = [micro(a?.time ?? null), a?.missed.length ?? '…', a?.alarms.length ?? '…'];
+    return `<tr${current}><th scope="row">${SETTINGS[which].name}</th>${
+      cells.map((cell) => `<td>${cell}</td>`).join('')}</tr>`;
+  }).join('');
   show('time', micro(answers()[setting]?.time ?? null));
   drawChart();
 }
@@ -199,7 +207,8 @@ function loadBodies() {
     scene.loadMesh(`body-${which}`, bodies[which]);
 }
 
-// From that side of the motion on which the contact is; near enough to see the gap between two samples.
+// From that side of the motion on which the contact is, and so near that one sees the gap between two
+// samples.
 function aimView() {
   const {it} = current();
   const motion = motionOf(it.i);
@@ -236,8 +245,8 @@ function marks(from, {triangles, point}, poses) {
       list.push({mesh: `${mesh}-${which}`, pose: poses[which], size: 1, alpha: 1,
         colour: colours[which ? 'witness-b' : 'witness-a']});
   }
-  list.push({mesh: 'ball', pose: {...AT_REST, position: point}, size: 3 * metresPerPixel(from, point),
-    colour: colours['witness-a'], alpha: 1});
+  list.push({mesh: 'ball', pose: {...AT_REST, position: point}, alpha: 1,
+    size: 3 * metresPerPixel(from, point), colour: colours['witness-a']});
   return list;
 }
 // Samples; those on both sides of the contact are plainer than the others.
@@ -245,9 +254,11 @@ function ghosts(it, motion, time) {
   const parts = it.isWrong && it.parts > 1 ? it.parts : GHOSTS - 1;
   const colourAt = (t) => colours[it.gaps && parts !== it.parts && t > time && t < time + it.share ?
     'hit' : 'free'];
-  return Array.from({length: parts + 1}, (_, k) => k / parts).filter((t) => Math.abs(t - time) > 0.003)
-    .map((t) => ({mesh: 'body-0', pose: between(...motion, t), size: 1, colour: colourAt(t),
-      alpha: Math.abs(t - time) * parts <= 1 ? 0.5 : 0.13}));
+  const times = Array.from({length: parts + 1}, (_, k) => k / parts);
+  return times.filter((t) => Math.abs(t - time) > 0.003).map((t) => ({
+    mesh: 'body-0', pose: between(...motion, t), size: 1, colour: colourAt(t),
+    alpha: Math.abs(t - time) * parts <= 1 ? 0.5 : 0.13,
+  }));
 }
 
 function place(id, at) {
@@ -371,11 +382,14 @@ function makeSets() {
 function makeStops() {
   find('setting').max = SETTINGS.length - 1;
   find('handle').style.setProperty('--stops', SETTINGS.length);
-  find('stops').innerHTML = SETTINGS.map(({kind, stop}, i) =>
-    `<span data-which="${i}"${kind === 'network' ? ' class="long"' : ''}>${stop}</span>`).join('') +
-    Object.entries(KINDS).map(([kind, [long, short]]) => `<span class="group" style="border-color: var(--${kind
-    }); grid-column: span ${SETTINGS.filter((s) => s.kind === kind).length}"><span class="long">${long
-    }</span><span class="short">${short}</span></span>`).join('');
+  const stops = SETTINGS.map(({kind, stop}, i) =>
+    `<span data-which="${i}"${kind === 'network' ? ' class="long"' : ''}>${stop}</span>`);
+  const groups = Object.entries(KINDS).map(([kind, [long, short]]) => {
+    const columns = SETTINGS.filter((each) => each.kind === kind).length;
+    return `<span class="group" style="border-color: var(--${kind}); grid-column: span ${columns}"
+      ><span class="long">${long}</span><span class="short">${short}</span></span>`;
+  });
+  find('stops').innerHTML = [...stops, ...groups].join('');
   find('legend').innerHTML = Object.entries(KINDS).map(([kind, [long]]) =>
     `<span><i style="background: var(--${kind})"></i>${long}</span>`).join('');
 }
@@ -432,7 +446,8 @@ function pressChart(event) {
 function listen() {
   find('setting').addEventListener('input', () => choose(Number(find('setting').value)));
   find('sets').addEventListener('change', ({target}) => chooseSet(Number(target.value)));
-  find('stops').addEventListener('click', ({target}) => target.dataset.which && choose(Number(target.dataset.which)));
+  find('stops').addEventListener('click', ({target: {dataset}}) =>
+    dataset.which && choose(Number(dataset.which)));
   find('previous').addEventListener('click', () => step(-1));
   find('next').addEventListener('click', () => step(1));
   for (const kind of ['pointerdown', 'pointermove'])

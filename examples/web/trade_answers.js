@@ -1,5 +1,5 @@
-// trade_answers.js - what each method says of trade.c's motions, and how long that takes here: the half
-// of trade.html that shows nothing. It comes after scene.js, trade.js after it.
+// trade_answers.js - what each method says of trade.c's motions, and how long that takes here: the
+// half of trade.html that shows nothing. It comes after scene.js, trade.js after it.
 
 performance.mark('script');
 const find = (id) => document.getElementById(id);
@@ -7,7 +7,8 @@ const find = (id) => document.getElementById(id);
 // As trade.c has them.
 const MESHES = ['mug', 'dish_rack', 'plate'];
 const SETS = [
-  {name: 'Plate past rack', kind: 'thin and fast', story: 'A plate flies past a dish rack', meshes: [2, 1]},
+  {name: 'Plate past rack', kind: 'thin and fast', story: 'A plate flies past a dish rack',
+    meshes: [2, 1]},
   {name: 'Mug past mug', kind: 'in the open', story: 'A mug flies past a mug', meshes: [0, 0]},
   {name: 'Mug through rack', kind: 'in a hollow', story: 'A mug flies through a dish rack',
     meshes: [0, 1]},
@@ -27,12 +28,17 @@ const SETTINGS = [
     ({kind: 'samples', samples, near: 0, stop: samples, name: `${samples} samples`})),
   ...[16, 64].map((samples) => ({kind: 'thicker', samples, near: THICKER, stop: samples,
     name: `${samples} samples, ${1000 * THICKER} mm thicker`})),
-  ...SIZES.map((size, i) => ({kind: 'network', model: i + 1, stop: size, name: `network, ${size}`})),
+  ...SIZES.map((size, i) =>
+    ({kind: 'network', model: i + 1, stop: size, name: `network, ${size}`})),
   {kind: 'proof', model: 0, stop: '', name: 'proof'},
 ];
-const KINDS = {samples: ['samples of a motion', 'samples'],
-  thicker: [`${1000 * THICKER} mm thicker`, `+${1000 * THICKER} mm`], network: ['network', 'network'],
-  proof: ['proof', 'proof']};
+// What they are called where there is room, and where there is little.
+const KINDS = {
+  samples: ['samples of a motion', 'samples'],
+  thicker: [`${1000 * THICKER} mm thicker`, `+${1000 * THICKER} mm`],
+  network: ['network', 'network'],
+  proof: ['proof', 'proof'],
+};
 
 const CHUNK = 12;  // milliseconds of work before hands and eyes get their turn
 
@@ -45,6 +51,7 @@ async function unpacked(id) {
   return new Response(plain, {headers: {'content-type': 'application/wasm'}});
 }
 const c = (await WebAssembly.instantiateStreaming(unpacked('module')).catch((error) => {
+  find('summary').textContent = 'Not possible';
   find('error').textContent = `This browser cannot run the module: ${error.message}`;
   throw error;
 })).instance.exports;
@@ -136,6 +143,7 @@ async function makeMotions(mine) {
 function answer(which) {
   if (answers()[which])
     return answers()[which];
+  ask(SETTINGS[which], 0, 0);  // encodes what the network needs
   const start = performance.now();
   ask(SETTINGS[which], 0, COUNT);
   const took = performance.now() - start;
@@ -149,8 +157,8 @@ function answer(which) {
   return answers()[which] = {missed, alarms, took, time: null};
 }
 
-// Of a hit: the gaps between samples in which it touches, the share of the motion from the first touch
-// to the last one in these, and the first contact. A method without samples has but one gap.
+// Of a hit: the gaps between samples in which it touches, the share of the motion from the first to the
+// last touch in these, and the first contact. A method without samples has but one gap.
 function missedBy({samples}, i) {
   const parts = samples ? samples - 1 : 1;
   const gaps = [];
@@ -169,8 +177,8 @@ function missedBy({samples}, i) {
   return {i, parts, gaps, share, ...contact};
 }
 
-// Microseconds of a motion, the least so far. It is measured in pieces, so that the page stays awake, but
-// in none that are too short for a browser's clock.
+// Microseconds of a motion, the least so far. It is measured in pieces, so that the page stays awake,
+// but in none that are too short for a browser's clock.
 async function measure(which, mine) {
   const {took} = answer(which);
   const step = Math.min(COUNT, Math.max(10, Math.floor(COUNT * CHUNK / took)));
@@ -191,9 +199,12 @@ async function measure(which, mine) {
 // The motions as a problem file, see examples/FORMATS.md.
 function problems() {
   const names = SETS[set].meshes.map((i) => MESHES[i]);
-  const lines = ['nsvcd-problems 1', ...[...new Set(names)].map((name) => `mesh ${name} ${name}.obj`)];
+  const lines = ['nsvcd-problems 1'];
+  for (const name of new Set(names))
+    lines.push(`mesh ${name} ${name}.obj`);
   for (let i = 0; i < COUNT; i++) {
-    lines.push(`problem ${i} ${names[0]} 1 ${names[1]} 1  0 0 0  0 0 0 1  ${Number(isHit(i))} nan 2`);
+    const label = Number(isHit(i));
+    lines.push(`problem ${i} ${names[0]} 1 ${names[1]} 1  0 0 0  0 0 0 1  ${label} nan 2`);
     for (const {position, rotation} of motionOf(i))
       lines.push([...position, ...rotation].map((x) => x.toPrecision(9)).join(' '));
   }
