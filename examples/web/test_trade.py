@@ -81,9 +81,12 @@ class Trade(Hands):
 
     def table(self) -> dict:
         """When all is counted: missed hits and false alarms of each setting."""
-        rows = "return [...document.querySelectorAll('#rows tr')].map((row) => [...row.cells].map((x) => x.textContent))"
-        self.until(lambda: "…" not in [cell for row in self.browser.execute_script(rows) for cell in row[2:]])
-        return {name: (int(missed), int(alarms)) for name, _, missed, alarms in self.browser.execute_script(rows)}
+        self.until(lambda: "…" not in [cell for row in self.rows() for cell in row[2:]])
+        return {name: (int(missed), int(alarms)) for name, _, missed, alarms in self.rows()}
+
+    def rows(self) -> list:
+        return self.browser.execute_script(
+            "return [...document.querySelectorAll('#rows tr')].map((row) => [...row.cells].map((x) => x.textContent))")
 
     def motions(self) -> Motions:
         return Motions(self.browser.execute_async_script(
@@ -134,7 +137,7 @@ class Trade(Hands):
             new MutationObserver(() => told.push(status.textContent)).observe(status, {childList: true});
             for (handle.value = 3; handle.value < 6; handle.value++)
               handle.dispatchEvent(new Event('input', {bubbles: true}));
-            setTimeout(arguments[0], 1500, told);""")
+            setTimeout(arguments[0], 1000, told);""")
         self.assertEqual([words[:11] for words in told], ["128 samples"], "it is not told of every stop")
         self.press(Keys.END)
         self.assertEqual(self.text("summary"), "The proof misses none of 200 hits")
@@ -158,8 +161,7 @@ class Trade(Hands):
 
         self.browser.execute_cdp_cmd("Performance.enable", {})
         self.until(lambda: self.browser.execute_script("return performance.getEntriesByName('measured').length") > 0, 20)
-        times = "return [...document.querySelectorAll('#rows td:nth-child(2)')].map((cell) => cell.textContent).join(' ')"
-        print("test_trade: plate past rack, us of a motion:", self.browser.execute_script(times), flush=True)
+        print("test_trade: plate past rack, us of a motion:", ", ".join(f"{row[0]} {row[1]}" for row in self.rows()), flush=True)
         time.sleep(0.7)  # until a screen reader has been told
         before = busy()
         time.sleep(1)
@@ -189,7 +191,8 @@ class Trade(Hands):
         for _ in range(3):
             self.frames()
             words = self.find("this")
-            first, last, share = re.match(r"This one touches between sample (\d+) and (\d+).*, for (\S+)\s%", words.text).groups()
+            said = r"This one touches between sample (\d+) and (\d+), for (\S+)\s%"
+            first, last, share = re.match(said, words.text).groups()
             self.assertEqual(int(last), int(first) + 1)
             at = 15 * times[int(words.get_attribute("data-motion"))] + 1
             self.assertTrue(int(first) - 0.01 < at < int(last) + 0.01, (words.text, at))

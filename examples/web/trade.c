@@ -1,7 +1,7 @@
 // trade.c - motions that nearly touch, and what fast checks say of them, as a WebAssembly module for
-// trade.js: the library, and the benchmark's mesh hierarchy, which looks at samples of a motion.
+// trade_answers.js: the library, and the benchmark's mesh hierarchy, which looks at samples of a motion.
 //
-// The module imports nothing, not even a clock. trade.js reads the structs in linear memory.
+// The module imports nothing, not even a clock. trade_answers.js reads the structs in linear memory.
 #define NSVCD_NO_STDIO
 #define NSVCD_NO_INT8
 #define NSVCD_NO_GRADIENT
@@ -17,9 +17,9 @@ const method *trade_hierarchy(void);  // trade_mesh.c
 
 enum { MUG, RACK, PLATE, MESHES };
 enum { COUNT = 400 };  // motions of a set: every other one hits
-enum { STEPS = 8 };    // of the search for where a motion begins to hit
-#define LEAST 1e-4     // metres: none is nearer to where its verdict changes, as in RESULTS.md
-#define SPREAD 0.01    // metres: how far from there they are
+enum { STEPS = 8 };    // of the search for where the verdict changes
+#define LEAST 1e-4     // metres: how far a motion is moved from there at least
+#define SPREAD 0.01    // metres: the standard deviation of how much farther
 
 typedef struct part {
   nsvcd_mesh mesh;
@@ -37,8 +37,8 @@ typedef struct set {
   double aside;                 // metres: the most by which it is moved until its verdict changes
 } set;
 
-// In the order of trade.js: a plate past the rack, a mug past a mug, a mug through the rack, a plate
-// into a slot of it.
+// In the order of trade_answers.js: a plate past the rack, a mug past a mug, a mug through the rack,
+// a plate into a slot of it.
 // clang-format off
 static const set sets[] = {
     {PLATE, RACK, {{-0.45, -0.2, 0}, {-0.25, 0.2, 0.25}}, {{0.25, -0.2, 0}, {0.45, 0.2, 0.25}},
@@ -52,7 +52,7 @@ static const set sets[] = {
 };
 // clang-format on
 
-// As trade.js reads it.
+// As trade_answers.js reads it.
 typedef struct trial {
   nsvcd_pose motion[2];  // A's
   int hits;              // by proof

@@ -262,7 +262,7 @@ function ghosts(it, motion, time) {
 }
 
 function place(id, at) {
-  find(id).hidden = !at;
+  find(id).hidden = !at || !scene;
   if (at)
     [find(id).style.left, find(id).style.top] = at.map((x) => `${x}px`);
 }
