@@ -40,7 +40,8 @@ const KINDS = {
   proof: ['proof', 'proof'],
 };
 
-const CHUNK = 12;  // milliseconds of work before hands and eyes get their turn
+const CHUNK = 12;   // milliseconds of work before hands and eyes get their turn
+const MAKING = 60;  // the same where there is nothing to be seen yet
 
 // ---- the module
 
@@ -129,7 +130,7 @@ async function makeMotions(mine) {
     return true;
   }
   for (let i = 0; i < COUNT;) {
-    for (const end = performance.now() + CHUNK; i < COUNT && performance.now() < end; i++)
+    for (const end = performance.now() + MAKING; i < COUNT && performance.now() < end; i++)
       c.trade_make(i, i + 1);
     await pause();
     if (mine !== job)
