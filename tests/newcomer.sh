@@ -187,7 +187,7 @@ step() {
   busy=$(awk -v a="$busy" -v b="$user" -v c="$system" 'BEGIN { printf "%.1f", a + b + c }')
   test $status = 0 || why=" FAILED: $status"
   printf '%7s  %5s  %s\n' "$seconds" "$1" "$2${3:-}$why"
-  test $status = 0 || fail "$readme:$1: $2: ends with $status, says: $(tail -n 4 "$dir/said")"
+  test $status = 0 || fail "$readme:$1: $2: ends with $status, says: $(tail -n 20 "$dir/said")"
   return $status
 }
 makefiles=$(echo Makefile packages/packages.mk tests/*.mk tests/*/*.mk train/train.mk)
