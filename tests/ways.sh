@@ -103,7 +103,7 @@ follow_way() {
         "${README:-$readme}" >"$file"
       test -s "$file" || { fail "$readme: no program"; return; }
       test "$(grep -c . "$file")" -le 10 || fail "$readme: its first program has more than 10 lines"
-      grep -q "${program[$way]#* }" "${README:-$readme}" || fail "$readme: does not name ${program[$way]#* }"
+      grep -q "$(basename "$file")" "${README:-$readme}" || fail "$readme: does not name $(basename "$file")"
     fi
   else
     hello "$way" >"$copy/hello.c"
