@@ -104,6 +104,7 @@ check-32:  # 32 bits, under sanitizers; x87
 check-firmware: | build  # Cortex-M4F and M7, under QEMU
 	$(MAKE) -C examples/firmware LEVELS=O2 run
 	$(MAKE) -C examples/firmware LEVELS=Os BUILDS="proof network" run
+	+tests/ways.sh firmware
 firmware: | build  ## Cortex-M under QEMU: answers as on the host; flash, RAM, stack and instructions as a table
 	$(MAKE) -C examples/firmware run table
 # A page with the library as WebAssembly: clang, lld, wasi-libc, libclang-rt-14-dev-wasm32; and its test in a browser:
@@ -112,16 +113,23 @@ web:  ## build/web/index.html: drag a motion, drop files, see the answer; five s
 	@$(MAKE) --no-print-directory -C examples/web page
 check-web: build/svcd build/verify
 	@$(MAKE) --no-print-directory -C examples/web check
+	+tests/ways.sh page
 # The module for Python, where there is one with numpy: Debian's numpy is for Debian's Python.
 check-python:
 	@for python in $(PYTHON) /usr/bin/python3; do \
 	  $$python -c 'import numpy' 2>/dev/null || continue; \
 	  command -v mypy >/dev/null || echo "check-python: no mypy: types not tested"; \
 	  $$python -c 'import matplotlib' 2>/dev/null || echo "check-python: no matplotlib: pictures not tested"; \
-	  $(MAKE) build/svcd build/_neuralsvcd.so build/_nsvcd_verify.so && cd examples/python && exec $$python -B -m unittest; exit 1; \
+	  $(MAKE) build/svcd build/_neuralsvcd.so build/_nsvcd_verify.so && (cd examples/python && exec $$python -B -m unittest) && exec tests/ways.sh python; exit 1; \
 	done; echo "check-python: no python3 with numpy: not tested"
-check-bindings:  # the packages for npm and crates.io: made, installed in an empty folder, asked
+# Each way, once, as a table: packages/README.md has what this says.
+ways: npm crate web  ## each way to a first verdict on one's own meshes, word by word by its README: seconds and bytes
+	+tests/ways.sh
+.PHONY: ways
+check-bindings:  # the packages for npm and crates.io: made, installed, tested; and as their READMEs say
 	+CC="$(CC)" tests/bindings.sh
+	+tests/ways.sh npm rust
+	+tests/ways.sh --mutants
 # The examples for Windows, where MinGW is there (Debian: gcc-mingw-w64-x86-64).
 MINGW = x86_64-w64-mingw32-gcc
 $(EXAMPLES:%=%.exe): build/%.exe: examples/%.c $(wildcard examples/*.h) $(SCENERY) $(LIBRARY) | build

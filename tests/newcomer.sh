@@ -18,6 +18,7 @@ dir=$(mktemp -d)
 trap 'rm -rf "$dir"' EXIT
 failures=0
 small=  # set: of a small README that is tested
+environment=(PATH=/usr/bin:/bin)  # where there is no bare root
 fail() {
   echo "newcomer: $*" >&2
   failures=$((failures + 1))
@@ -173,7 +174,7 @@ run() {
     (ulimit -t "$STEP" && chroot "$root" /usr/bin/env -i HOME=/root PATH=/usr/local/bin:/usr/bin:/bin sh -e /root/command)
   else
     printf 'cd %s\n%s\n' "'$copy'" "$1" >"$dir/command"
-    (ulimit -t "$STEP" && env -i HOME="$dir" PATH=/usr/bin:/bin sh -e "$dir/command")
+    (ulimit -t "$STEP" && env -i HOME="$dir" "${environment[@]}" sh -e "$dir/command")
   fi >"$dir/said" 2>&1 </dev/null
 }
 # step LINE COMMAND [NOTE]: runs it, and adds a row to the table.
@@ -186,7 +187,7 @@ step() {
   busy=$(awk -v a="$busy" -v b="$user" -v c="$system" 'BEGIN { printf "%.1f", a + b + c }')
   test $status = 0 || why=" FAILED: $status"
   printf '%7s  %5s  %s\n' "$seconds" "$1" "$2${3:-}$why"
-  test $status = 0 || fail "$readme:$1: $2: ends with $status, says: $(tail -n 4 "$dir/said")"
+  test $status = 0 || fail "$readme:$1: $2: ends with $status, says: $(tail -n 20 "$dir/said")"
   return $status
 }
 makefiles=$(echo Makefile packages/packages.mk tests/*.mk tests/*/*.mk train/train.mk)
@@ -334,6 +335,7 @@ END
   return $ends
 }
 
+test "$0" = "${BASH_SOURCE[0]}" || return 0  # ways.sh takes the functions
 if test "${1:-}" = --mutants; then
   mutants
   exit

@@ -1,6 +1,6 @@
 // bake.c - encodes meshes on the host, and writes the bodies as C arrays for a microcontroller.
 //
-//   bake proof|network|both POINTS OUT.h IN.obj ...
+//   bake proof|network|both POINTS OUT.h IN.obj|IN.stl ...
 //
 // proof: triangles, no latents. network: latents, no triangles. both: both. The array of
 // parts/my-mug.obj is named my_mug_body. BODIES_PATCHES is the most patches that one of them has.
@@ -54,7 +54,7 @@ static int bake(FILE *file, const char *path, const nsvcd_encode_options *option
     fprintf(stderr, "bake: %s: the name is too long\n", path);
     return 0;
   }
-  nsvcd_result result = nsvcd_obj_load(path, NULL, &mesh, NULL);
+  nsvcd_result result = nsvcd_mesh_load(path, NULL, NULL, &mesh, NULL);
   if (!result) {
     result = nsvcd_encode(&mesh, options, NULL, NULL, 0, &body);
     nsvcd_mesh_free(&mesh, NULL);
@@ -72,7 +72,7 @@ static int bake(FILE *file, const char *path, const nsvcd_encode_options *option
 
 int main(int argc, char **argv) {
   if (argc < 5) {
-    fprintf(stderr, "bake proof|network|both POINTS OUT.h IN.obj ...\n");
+    fprintf(stderr, "bake proof|network|both POINTS OUT.h IN.obj|IN.stl ...\n");
     return 2;
   }
   nsvcd_encode_options options = {0};
