@@ -64,14 +64,15 @@ async function createLibrary(response) {
     setMotion(motion);
     check(c.web_sweep(...scales, first, clearance, METHODS[method], times));
   }
-  // Asks how near they come, where they are free; answer() is that.
+  // Asks how near they come, where they are free: an answer of its own.
   function distance({motion, scales}) {
     setMotion(motion);
     check(c.web_distance(...scales));
+    return answerAt(c.web_nearest());
   }
+  const answer = () => answerAt(c.web_answer());
   // nsvcd_answer.
-  function answer() {
-    const at = c.web_answer();
+  function answerAt(at) {
     const f = floats(at, 102);
     const w = words(at, 102);
     return {

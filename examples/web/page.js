@@ -33,6 +33,7 @@ const bodies = [{scale: 1}, {scale: 1}];
 const motion = [AT_REST, AT_REST];
 const view = {yaw: -0.42, pitch: 0.3, distance: 1, target: [0, 0, 0]};
 let answer = null;  // null where the question was refused
+let closest = null;  // the distance's answer to the same question, where that is free and nothing moves
 let current = 'mug';  // of SCENES
 let robot = null;  // made when its scene is opened first
 let bends = [];  // degrees, of its joints
@@ -125,15 +126,15 @@ function showAnswer() {
     showVerdict(...answer.description);
   showTime(answer && answer.microseconds);
   // Of what is free: where they come nearest, once nothing moves.
-  const nearest = answer?.closest?.nearest ?? (witness ? answer.nearest : null);
+  const nearest = closest?.nearest ?? (witness ? answer.nearest : null);
   show('contact-name', answer?.verdict === VERDICT.FREE && !isArm() ? 'nearest at' : 'contact at');
   show('contact-time', timed ? `t = ${contactTime(answer).toFixed(3)}` :
     nearest ? `t = ${nearest.time.toFixed(3)}` : null);
   // Of a robot's hit it is not told whether it is the first.
   show('free-until', known && !(isArm() && timed) ? `t = ${answer.time.low.toFixed(3)}` : null);
-  const apart = (answer?.closest ?? answer)?.distance.low;
+  const apart = (closest ?? answer)?.distance.low;
   show('apart', known && apart > 0 && Number.isFinite(apart) ?
-    `${+(1000 * apart).toPrecision(answer.closest ? 4 : 2)} mm` : null);
+    `${+(1000 * apart).toPrecision(closest ? 4 : 2)} mm` : null);
   show('point', nearest ? numbers(nearest.point, 3) : null);
   show('normal', nearest ? numbers(nearest.normal, 2) : null);
   for (const which of [0, 1])
@@ -201,19 +202,16 @@ function ask(milliseconds, batches) {
   showAnswer();
 }
 
-// Fills in how near they come, where they are proven free. It takes longer than to know that.
+// How near they come, where they are proven free; else null. It takes longer than to know that.
 function measure() {
   if (isArm() || answer?.verdict !== VERDICT.FREE || answer.by !== BY.PROOF)
-    return;
+    return null;
   try {
-    library.distance(question());
-    const closest = library.answer();
-    if (closest.verdict === VERDICT.FREE && closest.distance.high < Infinity)
-      answer.closest = closest;
+    const found = library.distance(question());
+    return found.verdict === VERDICT.FREE && found.distance.high < Infinity ? found : null;
   } catch (error) {
-    return;  // the answer stands without it
+    return null;  // the answer stands without it
   }
-  showAnswer();
 }
 
 // ---- the proof, to take away
@@ -507,13 +505,13 @@ function settle(rounds) {
   if (rounds === 0)
     return;
   ask(1.5, 31);
-  measure();
   if (rounds > 1)
     settled = setTimeout(settle, 250, rounds - 1);
 }
 function frame() {
   waiting = false;
   if (asking) {
+    closest = null;
     ask(1, 3);
     proofFiles = null;
     showProof('Not while it moves');
@@ -521,6 +519,7 @@ function frame() {
     settled = setTimeout(() => {
       showProof(prove());
       writeLink();
+      closest = measure();
       settle(isArm() ? 0 : 3);
     }, 250);
   }
