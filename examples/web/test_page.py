@@ -46,7 +46,7 @@ ASSETS = Path(__file__).resolve().parent.parent / "assets"
 SLOWEST = 1000  # us of a question, the median; a page that does without vectors or compiler is slower
 FIRST = 0.01
 
-FIRST_ANSWER = 200  # ms from the page's script to its first answer, at best of five; beside other work
+FIRST_ANSWER = 200  # ms from navigation to the first answer, at best of nine; beside other work
 SCENES = ("mug", "stairs", "arm", "ring", "needle")
 SIZES = ((390, 844), (768, 1024), (1280, 800))
 CUBE_FACES = "f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n"
@@ -284,8 +284,8 @@ class Page(Hands):
         return self.find(f"drop-{which}").find_element(By.CLASS_NAME, "error").text
 
     def contact(self):
-        shown = self.text("contact-time")
-        return float(shown[4:]) if shown.startswith("t = ") else None
+        shown = self.text("contact-time")  # of what is free: when it is nearest
+        return float(shown[4:]) if shown.startswith("t = ") and self.text("contact-name") == "contact at" else None
 
     def assert_native(self, expected: tuple):
         """The page says what build/svcd says, of times within twice the tolerance of a first contact."""
@@ -909,16 +909,19 @@ class Page(Hands):
     def test_first_answer(self):
         self.assertLess(PAGE.stat().st_size, 1000000)
         marks = []
-        for _ in range(5):
+        for _ in range(9):
             self.browser.get("about:blank")
             time.sleep(0.5)
             self.open(self.address)
+            self.until(lambda: self.browser.execute_script("return performance.getEntriesByName('seen').length"))
             marks.append(self.browser.execute_script("""
                 const at = (name) => performance.getEntriesByName(name)[0].startTime;
-                return [at('first-answer') - at('script'), at('module') - at('script'), at('first-answer')];"""))
-        script, module, navigation = (sorted(each)[2] for each in zip(*marks))
-        print(f"test_page: {PAGE.name}: {PAGE.stat().st_size} bytes; first answer {script:.0f} ms after its script "
-              f"begins (its module takes {module:.0f} of them), {navigation:.0f} ms after navigation, the median of 5; the least {min(marks)[0]:.0f} ms", flush=True)
+                return [at('first-answer'), at('first-answer') - at('script'), at('module') - at('script'),
+                        at('seen')];"""))
+        navigation, script, module, seen = (sorted(each)[len(marks) // 2] for each in zip(*marks))
+        print(f"test_page: {PAGE.name}: {PAGE.stat().st_size} bytes; first answer {navigation:.0f} ms after navigation, "
+              f"seen after {seen:.0f}; {script:.0f} ms after its script begins (its module takes {module:.0f} of them), "
+              f"medians of {len(marks)}; the least {min(marks)[0]:.0f} ms", flush=True)
         self.assertLess(min(marks)[0], FIRST_ANSWER)
 
 
