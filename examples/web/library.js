@@ -1,4 +1,4 @@
-// library.js - neuralsvcd.h as web.c exports it, for JavaScript. page.js comes after it.
+// library.js - neuralsvcd.h as web.c exports it, for JavaScript. state.js comes after it.
 
 const METHODS = {proof: 1, network: 2};  // nsvcd_method
 const VERDICT = {UNDECIDED: 0, FREE: 1, HIT: 2};  // nsvcd_verdict

@@ -1,7 +1,7 @@
-// web.c - neuralsvcd.h as a WebAssembly module for page.js: two bodies, one motion, one answer,
+// web.c - neuralsvcd.h as a WebAssembly module for library.js: two bodies, one motion, one answer,
 // its certificate; and a robot's (arm.h).
 //
-// The module imports nothing. What page.js reads are the library's own structs in linear memory:
+// The module imports nothing. What library.js reads are the library's own structs in linear memory:
 // what it reads of them has four bytes on wasm32, so that a struct is an array of floats or words.
 // `web_encode`, `web_sweep` and `web_certify` return an nsvcd_result, which `web_result_string`
 // puts into words.
