@@ -15,14 +15,12 @@ function showVerdict(kind, title, text) {
 }
 
 function showAnswer() {
-  const witness = isWitnessed(answer);
   const known = answer && !isOpinion(answer);
   const timed = answer?.verdict === VERDICT.HIT && !answer.inside;
   if (answer)
     showVerdict(...answer.description);
   showTime(answer && answer.microseconds);
-  // Of what is free: where they come nearest, once nothing moves.
-  const nearest = closest?.nearest ?? (witness ? answer.nearest : null);
+  const nearest = shownContact();
   show('contact-name', answer?.verdict === VERDICT.FREE && !isArm() ? 'nearest at' : 'contact at');
   show('contact-time', timed ? `t = ${contactTime(answer).toFixed(3)}` :
     nearest ? `t = ${nearest.time.toFixed(3)}` : null);

@@ -50,6 +50,7 @@ function frame() {
       writeLink();
       closest = measure();
       settle(isArm() ? 0 : 3);
+      changed(false);
     }, 250);
   }
   asking = false;

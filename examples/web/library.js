@@ -83,6 +83,7 @@ async function createLibrary(response) {
       distance: {low: f[6], high: f[7]},
       nearest: {
         point: [...f.slice(80, 83)], normal: [...f.slice(83, 86)],
+        gap: f[86],
         time: f[87],
         triangles: [w[88], w[89]],
       },

@@ -43,6 +43,9 @@ function ghosts(time) {
         alpha: end ? 0.5 : 0.16,
       });
   }
+  if (closest)
+    list.push({mesh: 'body-0', pose: poseAt(closest.nearest.time), size: bodies[0].scale,
+      colour: colours.free, alpha: 0.5});
   return list;
 }
 
@@ -54,12 +57,14 @@ function sideAt(which, time) {
   return {...robot.parts[part], scale: 1, pose: robot.poses(time)[part]};
 }
 
-// The witness: two triangles with their edges, the point where they meet, and the normal.
+// The witness: two triangles with their edges, the point where they meet, and the normal; or, of
+// what stays apart, where it is nearest: two triangles, two points and a line between these.
 function marks() {
-  if (!isWitnessed(answer))
+  const contact = shownContact();
+  if (!contact)
     return [];
   const list = [];
-  const {point, normal, triangles, time} = answer.nearest;
+  const {point, normal, triangles, time, gap = 0} = contact;
   for (const which of [1, 0]) {
     const {positions, indices, scale, pose} = sideAt(which, time);
     const [a, b, c] = [0, 1, 2].map((k) => {
@@ -80,8 +85,13 @@ function marks() {
     normalized([...cross([0, 0, 1], normal), 1 + normal[2]]);
   const pose = {position: point, rotation: turn};
   const colour = colours['witness-a'];
-  list.push({mesh: 'arrow', pose, size: 80 * pixel, colour, alpha: 1});
-  list.push({mesh: 'ball', pose, size: 3 * pixel, colour, alpha: 1});
+  if (isWitnessed(answer))
+    list.push({mesh: 'arrow', pose, size: 80 * pixel, colour, alpha: 1});
+  const ends = gap > 0 ? [point, add(point, scaled(normal, gap))] : [point];
+  scene.loadLines('gap', ends);
+  list.push({mesh: 'gap', pose: AT_REST, size: 1, colour, alpha: 1});
+  for (const position of ends)
+    list.push({mesh: 'ball', pose: {...AT_REST, position}, size: 3 * pixel, colour, alpha: 1});
   return list;
 }
 
@@ -125,7 +135,8 @@ function placeGrips(from) {
 }
 
 function placeContact(from) {
-  const at = isWitnessed(answer) && toScreen(from, answer.nearest.point);
+  const contact = shownContact();
+  const at = contact && toScreen(from, add(contact.point, scaled(contact.normal, (contact.gap ?? 0) / 2)));
   find('contact').hidden = !at;
   if (at) {
     find('contact').style.left = `${at[0]}px`;

@@ -129,6 +129,8 @@ const isOpinion = (answer) => answer?.by === BY.NETWORK && !answer.inside;
 // Are there two triangles that prove a hit?
 const isWitnessed = (answer) =>
   answer?.verdict === VERDICT.HIT && answer.by === BY.PROOF && !answer.inside;
+// Where they meet, or come nearest: {point, normal, time, triangles, gap}; null: not known.
+const shownContact = () => closest?.nearest ?? (isWitnessed(answer) ? answer.nearest : null);
 // When they hit, or come too near to tell; where they are free, the end.
 const contactTime = ({verdict, time, nearest}) =>
   verdict === VERDICT.UNDECIDED ? nearest.time : time.high;

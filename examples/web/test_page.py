@@ -656,6 +656,7 @@ class Page(Hands):
         shown = float(self.text("apart").split()[0]) / 1000
         self.assertLess(float(low) - 1e-4, shown)
         self.assertLess(shown, float(high) + 1e-4)
+        self.assertTrue(self.find("contact").is_displayed(), "a ring is where it is nearest")
         self.set_poses(*HIGH[::-1])
         self.until(lambda: self.text("point") != "–")
         self.click("#gallery a")
