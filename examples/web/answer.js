@@ -9,8 +9,7 @@ function showTime(us) {
 }
 function showVerdict(kind, title, text) {
   find('verdict').dataset.kind = kind;
-  if (find('verdict-title').textContent !== title)  // read aloud only where it changes
-    show('verdict-title', title);
+  show('verdict-title', title);
   show('verdict-text', text);
 }
 
@@ -33,6 +32,16 @@ function showAnswer() {
   show('normal', nearest ? numbers(nearest.normal, 2) : null);
   for (const which of [0, 1])
     show(`triangle-${which}`, nearest ? nearest.triangles[which] : null);
+}
+
+// For a screen reader, once nothing moves, and only what is new.
+function say() {
+  const read = (id) => find(id).textContent;
+  const text = [`${read('verdict-title')}. ${read('verdict-text')}`,
+    shownContact() && ` ${read('contact-name')} ${read('contact-time')}.`,
+    closest && ` Apart by ${read('apart')}.`].filter((word) => word).join('');
+  if (read('said') !== text)
+    show('said', text);
 }
 
 // How long the page takes until then is what test_page.py prints.

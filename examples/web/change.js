@@ -50,6 +50,7 @@ function frame() {
       writeLink();
       closest = measure();
       settle(isArm() ? 0 : 3);
+      say();
       changed(false);
     }, 250);
   }

@@ -19,7 +19,7 @@ function openScene(name) {
   if (files)
     bodies.forEach((_, which) => showBody(which));
   for (const link of document.querySelectorAll('#gallery a'))
-    link.toggleAttribute('aria-current', link.hash === `#v=1&scene=${name}`);
+    link.ariaCurrent = link.hash === `#v=1&scene=${name}` ? 'true' : null;
   show('note', note);
   find('follow').checked = true;
   refit();
