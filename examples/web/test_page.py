@@ -446,7 +446,6 @@ class Page(Hands):
         self.until(lambda: self.text("time-text") == contact and self.find("follow").is_selected())
 
     def test_picture(self):
-        self.set_poses(*HIGH)
         self.click("[name=method][value=network]")  # has no witness, whose pixels SwiftShader varies
         pictures = []
         for t in ("0.300", "0.340", "0.300"):  # no ghost is there
