@@ -19,8 +19,8 @@ int main(int argc, char **argv) {
   memset(&rack, 0, sizeof rack);
   // radius, height, wall: the handle points along x
   shapes_mug(&mug, 0.041, 0.095, 0.005, 40);
-  // length, width, height, wire: two rows of eight prongs
-  shapes_dish_rack(&rack, 0.40, 0.30, 0.12, 0.003, 8, 8);
+  // length, width, height, wire, reach: two rows of eight prongs
+  shapes_dish_rack(&rack, 0.40, 0.30, 0.12, 0.003, 0.002, 8, 8);
   int good = write_asset(&mug, folder, "mug.obj");
   good = write_asset(&rack, folder, "dish_rack.obj") && good;
   return !good;
