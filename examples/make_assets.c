@@ -20,8 +20,8 @@ int main(int argc, char **argv) {
   memset(&plate, 0, sizeof plate);
   // radius, height, wall: the handle points along x
   shapes_mug(&mug, 0.041, 0.095, 0.005, 40);
-  // length, width, height, wire: two rows of eight prongs
-  shapes_dish_rack(&rack, 0.40, 0.30, 0.12, 0.003, 8, 8);
+  // length, width, height, wire, reach: two rows of eight prongs
+  shapes_dish_rack(&rack, 0.40, 0.30, 0.12, 0.003, 0.002, 8, 8);
   // radius, height, wall
   shapes_plate(&plate, 0.11, 0.02, 0.003, 40);
   int good = write_asset(&mug, folder, "mug.obj");

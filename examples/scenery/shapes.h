@@ -572,11 +572,13 @@ SHAPES_DEF void shapes_chair(shapes_mesh *mesh, double width, double height, dou
     shapes_box_at(mesh, 0, (w - leg) / 2, seat + (height - seat) * (i + 1.5) / 4.6, w, 0.6 * leg,
                   0.8 * leg);
 }
+// reach: how far the two long wires of its frame stand out beyond the others. At 0 the ends of two
+// wires share an edge.
 SHAPES_DEF void shapes_dish_rack(shapes_mesh *mesh, double x, double y, double height, double wire,
-                                 int slots, int sides) {
+                                 double reach, int slots, int sides) {
   for (int s = -1; s <= 1; s += 2) {
-    double a[3] = {-x / 2, s * y / 2, wire};
-    double b[3] = {x / 2, s * y / 2, wire};
+    double a[3] = {-x / 2 - reach, s * y / 2, wire};
+    double b[3] = {x / 2 + reach, s * y / 2, wire};
     double c[3] = {s * x / 2, -y / 2, wire};
     double d[3] = {s * x / 2, y / 2, wire};
     shapes_rod_between(mesh, a, b, wire, sides);
@@ -759,7 +761,7 @@ SHAPES_DEF void shapes_random_hollow(shapes_mesh *mesh, shapes_rng *rng, int kin
       break;
     case 2:
       m = 4 + shapes_pick(rng, 5);
-      shapes_dish_rack(mesh, 1, a, 0.5 * b, shapes_uniform(rng, 0.008, 0.02), m, 6);
+      shapes_dish_rack(mesh, 1, a, 0.5 * b, shapes_uniform(rng, 0.008, 0.02), 0, m, 6);
       break;
     case 3:
       shapes_drawer(mesh, 1, a, 0.5 * b, wall);

@@ -1,4 +1,4 @@
-// arm.h - of web.c: a robot among obstacles. page.js names joints, parts and pairs as a planning
+// arm.h - of web.c: a robot among obstacles. arm.js names joints, parts and pairs as a planning
 // file has them, has a motion planned, bends it, and asks whether it is free.
 
 #define ARM_PARTS 32

@@ -1,5 +1,5 @@
 // arm.js - a robot among obstacles: a planned motion that hands can bend, its verdict, its proof.
-// What the robot is stands in a planning file, examples/FORMATS.md, and its meshes. page.js comes
+// What the robot is stands in a planning file, examples/FORMATS.md, and its meshes. state.js comes
 // after it.
 
 const ARM_FILES = 'arm-files';  // the element that has them: `== NAME` before each

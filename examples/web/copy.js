@@ -1,4 +1,4 @@
-// copy.js - the question that the page shows, as text for a terminal, for Python, for C. page.js comes
+// copy.js - the question that the page shows, as text for a terminal, for Python, for C. state.js comes
 // after it.
 
 // asked: of the page's question. files: A's and B's paths. Each of these runs as it is, where the files are.

@@ -1,4 +1,4 @@
-// library.js - neuralsvcd.h as web.c exports it, for JavaScript. page.js comes after it.
+// library.js - neuralsvcd.h as web.c exports it, for JavaScript. state.js comes after it.
 
 const METHODS = {proof: 1, network: 2};  // nsvcd_method
 const VERDICT = {UNDECIDED: 0, FREE: 1, HIT: 2};  // nsvcd_verdict
@@ -64,14 +64,15 @@ async function createLibrary(response) {
     setMotion(motion);
     check(c.web_sweep(...scales, first, clearance, METHODS[method], times));
   }
-  // Asks how near they come, where they are free; answer() is that.
+  // Asks how near they come, where they are free: an answer of its own.
   function distance({motion, scales}) {
     setMotion(motion);
     check(c.web_distance(...scales));
+    return answerAt(c.web_nearest());
   }
+  const answer = () => answerAt(c.web_answer());
   // nsvcd_answer.
-  function answer() {
-    const at = c.web_answer();
+  function answerAt(at) {
     const f = floats(at, 102);
     const w = words(at, 102);
     return {
@@ -82,6 +83,7 @@ async function createLibrary(response) {
       distance: {low: f[6], high: f[7]},
       nearest: {
         point: [...f.slice(80, 83)], normal: [...f.slice(83, 86)],
+        gap: f[86],
         time: f[87],
         triangles: [w[88], w[89]],
       },

@@ -1,5 +1,5 @@
 // scene.js - draws two bodies, ghosts of one of them and marks, with WebGL 2; finds what is under
-// the pointer. The half of the page that knows nothing of the library. page.js comes after it.
+// the pointer. The half of the page that knows nothing of the library. state.js comes after it.
 //
 // A pose is {position: [x, y, z], rotation: [x, y, z, w]}; a body's point is scaled, turned, moved.
 

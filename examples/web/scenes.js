@@ -1,4 +1,4 @@
-// scenes.js - the gallery: bodies made here, and their motions. page.js comes after it.
+// scenes.js - the gallery: bodies made here, and their motions. state.js comes after it.
 
 // ---- OBJ texts
 

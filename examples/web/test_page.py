@@ -46,7 +46,7 @@ ASSETS = Path(__file__).resolve().parent.parent / "assets"
 SLOWEST = 1000  # us of a question, the median; a page that does without vectors or compiler is slower
 FIRST = 0.01
 
-FIRST_ANSWER = 200  # ms from the page's script to its first answer, at best of five; beside other work
+FIRST_ANSWER = 200  # ms from navigation to the first answer, at best of nine; beside other work
 SCENES = ("mug", "stairs", "arm", "ring", "needle")
 SIZES = ((390, 844), (768, 1024), (1280, 800))
 CUBE_FACES = "f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n"
@@ -284,8 +284,8 @@ class Page(Hands):
         return self.find(f"drop-{which}").find_element(By.CLASS_NAME, "error").text
 
     def contact(self):
-        shown = self.text("contact-time")
-        return float(shown[4:]) if shown.startswith("t = ") else None
+        shown = self.text("contact-time")  # of what is free: when it is nearest
+        return float(shown[4:]) if shown.startswith("t = ") and self.text("contact-name") == "contact at" else None
 
     def assert_native(self, expected: tuple):
         """The page says what build/svcd says, of times within twice the tolerance of a first contact."""
@@ -351,6 +351,30 @@ class Page(Hands):
         self.find("canvas").send_keys(Keys.ARROW_LEFT)
         self.frames()
         self.assertNotEqual(self.find("grip-0").rect, label)
+
+    def test_what_is_read_aloud(self):
+        """One sentence when nothing moves; all that has the focus has a name."""
+        def said() -> str:
+            return self.find("said").get_attribute("textContent")
+
+        self.until(said)
+        self.assertEqual(said(), f"Hit. {self.text('verdict-text')} contact at {self.text('contact-time')}.")
+        self.browser.execute_script("""
+            window.heard = [];
+            const keep = () => heard.push(document.getElementById('said').textContent);
+            new MutationObserver(keep).observe(document.getElementById('said'), {childList: true});""")
+        self.drag(self.find("grip-1"), -120, -160)
+        self.until(lambda: said().startswith("Free"))
+        time.sleep(1)
+        heard = self.browser.execute_script("return heard")
+        self.assertEqual(len(heard), 1, heard)
+        self.assertIn(f"nearest at {self.text('contact-time')}. Apart by {self.text('apart')}.", heard[0])
+        nodes = self.browser.execute_cdp_cmd("Accessibility.getFullAXTree", {})["nodes"]
+        nodes = [[node["role"]["value"], node.get("name", {}).get("value"), {p["name"]: p["value"].get("value") for p in
+                  node.get("properties", [])}] for node in nodes if not node["ignored"]]
+        self.assertEqual([node for node in nodes if node[2].get("focusable") and not node[1]], [])
+        self.assertEqual({role for role, _, facts in nodes if facts.get("live", "off") != "off"} - {"status", "alert"}, set())
+        self.assertEqual([link.text for link in self.browser.find_elements(By.CSS_SELECTOR, "[aria-current=true]")], ["Mug"])
 
     def test_answers_are_those_of_svcd(self):
         rng = random.Random(7)
@@ -422,7 +446,7 @@ class Page(Hands):
         self.until(lambda: self.text("time-text") == contact and self.find("follow").is_selected())
 
     def test_picture(self):
-        self.set_poses(*HIGH)
+        self.click("[name=method][value=network]")  # has no witness, whose pixels SwiftShader varies
         pictures = []
         for t in ("0.300", "0.340", "0.300"):  # no ghost is there
             self.set("time", t)
@@ -656,6 +680,7 @@ class Page(Hands):
         shown = float(self.text("apart").split()[0]) / 1000
         self.assertLess(float(low) - 1e-4, shown)
         self.assertLess(shown, float(high) + 1e-4)
+        self.assertTrue(self.find("contact").is_displayed(), "a ring is where it is nearest")
         self.set_poses(*HIGH[::-1])
         self.until(lambda: self.text("point") != "–")
         self.click("#gallery a")
@@ -726,7 +751,7 @@ class Page(Hands):
                 out = subprocess.run([SVCD, "check", "--first", "0.01", Path(folder) / "proof" / "proof.txt"],
                                      check=True, capture_output=True, text=True).stdout.split("\t")
                 self.assert_native((out[2] == "1", float(out[3]), out[6], float(out[7])))
-                for which in (0, 1) if name != "mug" else ():  # a wire of the rack meets others
+                for which in (0, 1):
                     self.assertEqual(self.part(which, "findings").text, "", "nothing is wrong with its meshes")
         self.assertEqual(tuple(titles), SCENES)
         self.assertEqual(titles, {"mug": "Hit", "stairs": "Hit", "arm": "Free", "ring": "Free", "needle": "Hit"})
@@ -909,16 +934,19 @@ class Page(Hands):
     def test_first_answer(self):
         self.assertLess(PAGE.stat().st_size, 1000000)
         marks = []
-        for _ in range(5):
+        for _ in range(9):
             self.browser.get("about:blank")
             time.sleep(0.5)
             self.open(self.address)
+            self.until(lambda: self.browser.execute_script("return performance.getEntriesByName('seen').length"))
             marks.append(self.browser.execute_script("""
                 const at = (name) => performance.getEntriesByName(name)[0].startTime;
-                return [at('first-answer') - at('script'), at('module') - at('script'), at('first-answer')];"""))
-        script, module, navigation = (sorted(each)[2] for each in zip(*marks))
-        print(f"test_page: {PAGE.name}: {PAGE.stat().st_size} bytes; first answer {script:.0f} ms after its script "
-              f"begins (its module takes {module:.0f} of them), {navigation:.0f} ms after navigation, the median of 5; the least {min(marks)[0]:.0f} ms", flush=True)
+                return [at('first-answer'), at('first-answer') - at('script'), at('module') - at('script'),
+                        at('seen')];"""))
+        navigation, script, module, seen = (sorted(each)[len(marks) // 2] for each in zip(*marks))
+        print(f"test_page: {PAGE.name}: {PAGE.stat().st_size} bytes; first answer {navigation:.0f} ms after navigation, "
+              f"seen after {seen:.0f}; {script:.0f} ms after its script begins (its module takes {module:.0f} of them), "
+              f"medians of {len(marks)}; the least {min(marks)[0]:.0f} ms", flush=True)
         self.assertLess(min(marks)[0], FIRST_ANSWER)
 
 

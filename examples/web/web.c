@@ -1,7 +1,7 @@
-// web.c - neuralsvcd.h as a WebAssembly module for page.js: two bodies, one motion, one answer,
+// web.c - neuralsvcd.h as a WebAssembly module for library.js: two bodies, one motion, one answer,
 // its certificate; and a robot's (arm.h).
 //
-// The module imports nothing. What page.js reads are the library's own structs in linear memory:
+// The module imports nothing. What library.js reads are the library's own structs in linear memory:
 // what it reads of them has four bytes on wasm32, so that a struct is an array of floats or words.
 // `web_encode`, `web_sweep` and `web_certify` return an nsvcd_result, which `web_result_string`
 // puts into words.
@@ -52,7 +52,8 @@ typedef struct side {
 
 static side sides[2];
 static nsvcd_pose motion[2];  // A's; B rests at the origin
-static nsvcd_answer answer;
+static nsvcd_answer answer;   // of web_sweep
+static nsvcd_answer nearest;  // of web_distance
 static nsvcd_certificate certificate;
 static uint8_t proof[1 << 20];  // the certificate's bytes
 static void *workspace;
@@ -168,13 +169,13 @@ nsvcd_result EXPORT(web_sweep)(float scale_a, float scale_b, float first, float 
   return result;
 }
 
-// How near do they come, if the last web_sweep found them free? web_answer is the distance's then.
+// How near do they come, if the last web_sweep found them free? web_nearest is what comes of it.
 nsvcd_result EXPORT(web_distance)(float scale_a, float scale_b) {
   nsvcd_question question = make_question(scale_a, scale_b, 0);
   question.ask = NSVCD_ASK_DISTANCE;
   question.to = 1e-4f * (scale_a * sides[0].facts.radius + scale_b * sides[1].facts.radius);
   question.work = 100000;
-  return nsvcd_sweep(&question, workspace, workspace_size, &answer);
+  return nsvcd_sweep(&question, workspace, workspace_size, &nearest);
 }
 
 // Once for each mesh.
@@ -208,6 +209,9 @@ nsvcd_pose *EXPORT(web_motion)(void) {
 }
 const nsvcd_answer *EXPORT(web_answer)(void) {
   return &answer;
+}
+const nsvcd_answer *EXPORT(web_nearest)(void) {
+  return &nearest;
 }
 const nsvcd_certificate *EXPORT(web_certificate)(void) {
   return &certificate;
