@@ -1,8 +1,6 @@
 // state.js - what the page holds: the library, two bodies, a motion, an answer; what is asked of it,
 // and what an answer is called. The rooms after it show that and change it.
 
-performance.mark('script');
-const find = (id) => document.getElementById(id);
 const encoded = (text) => new TextEncoder().encode(text);
 
 const AT_REST = {position: [0, 0, 0], rotation: [0, 0, 0, 1]};
@@ -13,15 +11,6 @@ const UNLIKE = 100;  // and hardly ones that differ by this factor
 
 // Until the next picture is there.
 const painted = () => new Promise((done) => requestAnimationFrame(() => setTimeout(done)));
-
-// What stands in the page as base64 of gzip.
-async function unpacked(id) {
-  const text = find(id).textContent;
-  const packed = Uint8Array.fromBase64?.(text) ??  // since 2025, and far faster
-    Uint8Array.from(atob(text), (character) => character.charCodeAt(0));
-  const plain = new Response(packed).body.pipeThrough(new DecompressionStream('gzip'));
-  return new Response(plain, {headers: {'content-type': 'application/wasm'}});
-}
 
 const canvas = find('canvas');
 let scene = null;  // comes after the first answer, because a graphics card takes its time

@@ -1,8 +1,5 @@
 // trade_answers.js - what each method says of trade.c's motions, and how long that takes here: the
-// half of trade.html that shows nothing. It comes after scene.js, trade.js after it.
-
-performance.mark('script');
-const find = (id) => document.getElementById(id);
+// half of trade.html that shows nothing. It comes after scene.js and unpack.js, trade.js after it.
 
 // As trade.c has them.
 const MESHES = ['mug', 'dish_rack', 'plate'];
@@ -45,12 +42,6 @@ const MAKING = 60;  // the same where there is nothing to be seen yet
 
 // ---- the module
 
-// What stands in the page as base64 of gzip.
-async function unpacked(id) {
-  const packed = await fetch(`data:;base64,${find(id).textContent.trim()}`);
-  const plain = packed.body.pipeThrough(new DecompressionStream('gzip'));
-  return new Response(plain, {headers: {'content-type': 'application/wasm'}});
-}
 const c = (await WebAssembly.instantiateStreaming(unpacked('module')).catch((error) => {
   find('summary').textContent = 'Not possible';
   find('error').textContent = `This browser cannot run the module: ${error.message}`;

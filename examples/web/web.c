@@ -19,23 +19,11 @@
 
 #include "../scenery/mesh_check.h"
 #include "../scenery/mesh_files.h"
+#include "no_host.h"
 
 // library.js counts on it.
 _Static_assert(sizeof(nsvcd_answer) == 4 * 102 && sizeof(nsvcd_pose) == 4 * 7, "a field is a word");
 _Static_assert(offsetof(nsvcd_certificate, size) == 4 * 6, "behind a double");
-
-// What printf of wasi-libc would ask a host for; only snprintf is used, which does not.
-int32_t __imported_wasi_snapshot_preview1_fd_close(int32_t fd) {
-  return fd;
-}
-int32_t __imported_wasi_snapshot_preview1_fd_seek(int32_t fd, int64_t to, int32_t from,
-                                                  int32_t out) {
-  return (void)to, (void)from, (void)out, fd;
-}
-int32_t __imported_wasi_snapshot_preview1_fd_write(int32_t fd, int32_t list, int32_t count,
-                                                   int32_t out) {
-  return (void)list, (void)count, (void)out, fd;
-}
 
 #define EXPORT(name) __attribute__((export_name(#name))) name
 

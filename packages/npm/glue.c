@@ -8,6 +8,7 @@
 #include "../../neuralsvcd.h"
 
 #include "../../examples/scenery/mesh_files.h"
+#include "../../examples/web/no_host.h"
 
 // neuralsvcd.js counts words of four bytes, in this order.
 _Static_assert(sizeof(nsvcd_question) == 4 * 34, "nsvcd_question");
@@ -22,19 +23,6 @@ _Static_assert(sizeof(nsvcd_encode_options) == 4 * 10, "nsvcd_encode_options");
 _Static_assert(sizeof(nsvcd_faces) == 4 * 6 && sizeof(nsvcd_mesh) == 4 * 4, "nsvcd_faces");
 _Static_assert(offsetof(nsvcd_mesh_options, scale) == 32, "nsvcd_mesh_options");
 _Static_assert(sizeof(mesh_fault) == 4 * 3, "mesh_fault");
-
-// What printf of wasi-libc would ask a host for. Nothing here prints.
-int32_t __imported_wasi_snapshot_preview1_fd_close(int32_t fd) {
-  return fd;
-}
-int32_t __imported_wasi_snapshot_preview1_fd_seek(int32_t fd, int64_t to, int32_t from,
-                                                  int32_t out) {
-  return (void)to, (void)from, (void)out, fd;
-}
-int32_t __imported_wasi_snapshot_preview1_fd_write(int32_t fd, int32_t list, int32_t count,
-                                                   int32_t out) {
-  return (void)list, (void)count, (void)out, fd;
-}
 
 // Returns 1, or 0 with a reason in *fault.
 __attribute__((export_name("mesh_parse"))) int glue_mesh_parse(const char *name, const void *data,
