@@ -156,16 +156,39 @@ wrong(/ask/, () => sweep({a, b, ask: 'last'}));
 wrong(/poses/, () => sweep({a: {body: ball, poses: [1, 2, 3]}, b}));
 wrong(/poses/, () => sweep({a: {body: ball, poses: objects[0]}, b}));
 wrong(/quaternion/, () => sweep({a: {body: ball, poses: [{position: [0, 0, 0]}]}, b}));
-wrong(/a pose/, () => sweep({a: {body: ball, poses: [[0, 0, 0]]}, b}));
+wrong(/a pose must be 7 numbers: x y z and quaternion x y z w/, () => sweep({a: {body: ball, poses: [[0, 0, 2], [0, 0, 0]]}, b}));
+wrong(/7 each: x y z and quaternion x y z w/, () => sweep({a: {body: ball, poses: [0, 0, 2]}, b}));
+wrong(/poses is empty: leave it out/, () => sweep({a, b: {body: cube, poses: []}}));
+wrong(/poses is empty/, () => sweep({a, b: {body: cube, poses: new Float32Array()}}));
+wrong(/a is a body: write a: \{body: \.\.\.\}/, () => sweep({a: ball, b}));
 wrong(/times/, () => sweep({a: {...a, times: [0, 0.5, 1]}, b}));
 wrong(/work/, () => sweep({a, b, work: -1}));
-wrong(/body/, () => sweep({a: {body: mesh}, b}));
+wrong(/new Body\(mesh\)/, () => sweep({a: {body: mesh}, b}));
 wrong(/indices/, () => new Body({positions: corners, indices: [0, 1, 1.5]}));
 wrong(/indices/, () => new Body({positions: corners, indices: [0, 1, -1]}));
 wrong(/positions/, () => new Body({positions: [0, 0]}));
 wrong(/positions/, () => new Body(undefined));
 wrong(/convex/, () => new Body(mesh, {convex: 1}));
+wrong(/no 'index', but positions, indices/, () => new Body({positions: corners, index: [0, 1, 2]}));
+wrong(/no 'vertices'/, () => new Body({vertices: corners, faces: [0, 1, 2]}));
+wrong(/g\.attributes\.position\.array/, () => new Body({attributes: {position: {array: corners}}, index: null}));
 wrong(/data/, () => parseMesh(3));
+wrong(/file name\? readFileSync/, () => parseMesh('mug.obj'));
+wrong(/file name\? readFileSync/, () => parseMesh('parts/A 1.stl', {name: 'A 1.stl'}));
+
+// A warning for each file that is too large or too small, not at the limits.
+const warnings = [];
+const {warn} = console;
+console.warn = (line) => warnings.push(line);
+const ofSide = (side, options) => parseMesh(`v 0 0 0\nv ${side} 0 0\nv 0 ${side / 2} 0\nf 1 2 3\n`, options);
+ofSide(80, {name: 'cup.obj'});
+ofSide(0.5, {scale: 0.001});
+[30, 0.001, 1].forEach((side) => ofSide(side));
+ofSide(80, {quiet: true});
+ofSide(80, {scale: 0.001});
+console.warn = warn;
+assert.deepEqual(warnings, ['cup.obj: a body of 80 m: are these millimetres? try {scale: 0.001}',
+  'neuralsvcd: a body of 0.0005 m: is it too small by a thousand? try {scale: 1}']);
 
 // More bodies than memory has room for, freed at once or when collected.
 const large = new Body(heightField(Float32Array.from({length: 250 * 250}, (_, i) => Math.sin(i)), 250, 250, [1, 1]), {open: true}).toBytes();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Units are metres, axes right-handed. Time is in [0, 1]. Triangles are counter-clockwise seen from outside. What is
+// Units are metres, axes right-handed. Quaternions are x, y, z, w: not w first. Time is in [0, 1]. Triangles are counter-clockwise seen from outside. What is
 // proven, and to which resolution, is in the contracts at the top of neuralsvcd.h, whose names are the same but for
 // their spelling. Numbers are rounded to float32.
 
@@ -19,7 +19,7 @@ export class SvcdError extends Error {
 
 /** An array, or an object such as three.js has. */
 export type Vector3 = Iterable<number> | {x: number; y: number; z: number};
-/** Of unit length: x, y, z, w. */
+/** Of unit length: x, y, z, w, and not w first. */
 export type Quaternion = Iterable<number> | {x: number; y: number; z: number; w: number};
 /** Seven numbers, x y z and the quaternion x y z w; or an object that has both, as an Object3D of three.js. */
 export type Pose = Iterable<number> | {position: Vector3; quaternion: Quaternion};
@@ -40,9 +40,15 @@ export interface MeshOptions {
   scale?: number;
   /** The point, in the file's units, that becomes the origin. Default [0, 0, 0]. */
   origin?: Vector3;
+  /** No warning about the size. Default false. */
+  quiet?: boolean;
 }
 
-/** Reads OBJ, STL (binary or text), PLY or GLB. Faces of any number of corners are triangulated. */
+/**
+ * Reads OBJ, STL (binary or text), PLY or GLB. Faces of any number of corners are triangulated. A mesh that is larger than
+ * 30 m or smaller than 1 mm is warned of with console.warn, once: `scale` may be wrong.
+ * @param data what the file holds, not its name
+ */
 export function parseMesh(data: Bytes | string, options?: MeshOptions): Mesh;
 /** The convex hull of points, three numbers each: a closed mesh. */
 export function convexHull(points: ArrayLike<number>): Mesh;
@@ -100,7 +106,7 @@ export interface BodyFacts {
  * by dispose().
  */
 export class Body {
-  /** Without indices, every three vertices are a triangle. Both are copied. */
+  /** Without indices, every three vertices are a triangle. Both are copied. Other properties are refused. */
   constructor(mesh: {positions: ArrayLike<number>; indices?: ArrayLike<number> | null}, options?: BodyOptions);
   /** Centred at the origin. */
   static sphere(radius: number): Body;
@@ -108,7 +114,7 @@ export class Body {
   static capsule(from: Vector3, to: Vector3, radius: number): Body;
   /**
    * Centred at the origin.
-   * @param half half the lengths, which include the radius of rounded edges
+   * @param half half the lengths: [1, 1, 1] is a cube of side 2. They include the radius of rounded edges
    * @param convexRadius that radius; default 0
    */
   static box(half: Vector3, convexRadius?: number): Body;
@@ -128,7 +134,7 @@ export interface Mover {
   body: Body;
   /**
    * Up to 65536, or one flat array of seven numbers each. Between two of them the rotation is a slerp, and the pivot goes
-   * straight. One pose: it rests there. Default: it rests at the origin.
+   * straight. One pose: it rests there. Default: it rests at the origin. None, [], is refused.
    */
   poses?: readonly Pose[] | ArrayLike<number>;
   /** Of the poses, rising from 0 to 1. Default: uniform. */

@@ -99,19 +99,19 @@ function size(what, value) {
   return value;
 }
 
-// As many numbers: an array, or an object that has x, y, z, w.
-function vector(what, value, count) {
+// As many numbers: an array, or an object that has x, y, z, w. hint: which ones.
+function vector(what, value, count, hint = '') {
   const isIterable = typeof value?.[Symbol.iterator] === 'function';
   const numbers = isIterable ? [...value] : ['x', 'y', 'z', 'w'].slice(0, count).map((name) => value?.[name]);
   if (numbers.length !== count || !numbers.every((each) => typeof each === 'number'))
-    throw new TypeError(`${what} must be ${count} numbers`);
+    throw new TypeError(`${what} must be ${count} numbers${hint}`);
   return numbers;
 }
 
-function float32(what, array, multiple) {
+function float32(what, array, multiple, hint = '') {
   const isArray = Array.isArray(array) || ArrayBuffer.isView(array) && !(array instanceof DataView);
   if (!isArray || array.length % multiple || Array.isArray(array) && !array.every((each) => typeof each === 'number'))
-    throw new TypeError(`${what} must be an array of numbers, ${multiple} each`);
+    throw new TypeError(`${what} must be an array of numbers, ${multiple} each${hint}`);
   return array instanceof Float32Array ? array : Float32Array.from(array);
 }
 
@@ -142,21 +142,43 @@ function takeMesh(at) {
   return mesh;
 }
 
+// The limits are those of svcd and Python.
+function warnOfSize({positions}, scale, name) {
+  const low = [Infinity, Infinity, Infinity];
+  const high = [-Infinity, -Infinity, -Infinity];
+  for (let i = 0; i < positions.length; i++) {
+    low[i % 3] = Math.min(low[i % 3], positions[i]);
+    high[i % 3] = Math.max(high[i % 3], positions[i]);
+  }
+  const extent = Math.max(...high.map((most, axis) => most - low[axis]));
+  if (extent >= 0.001 && extent <= 30)
+    return;
+  const rounded = (number) => Number(number.toPrecision(4));
+  const question = extent > 30 ? 'are these millimetres?' : 'is it too small by a thousand?';
+  const better = rounded(extent > 30 ? scale / 1000 : scale * 1000);
+  console.warn(`${name || 'neuralsvcd'}: a body of ${rounded(extent)} m: ${question} try {scale: ${better}}`);
+}
+
 export function parseMesh(data, options = {}) {
-  known('options', options, ['name', 'scale', 'origin']);
-  const {name = '', scale = 1, origin = [0, 0, 0]} = options;
+  known('options', options, ['name', 'scale', 'origin', 'quiet']);
+  const {name = '', scale = 1, origin = [0, 0, 0], quiet = false} = options;
   const bytes = bytesOf('data', data);
   const numbers = [0, ...vector('origin', origin, 3), number('scale', scale)];  // 0: the format, which is found
-  return withMemory((room, copy) => {
+  const parsed = withMemory((room, copy) => {
     const mesh = room(16);
     const fault = room(12);
     const named = copy(new TextEncoder().encode(`${name}\0`));
     if (!c.mesh_parse(named, copy(bytes), bytes.length, copy(Float64Array.from(numbers)), mesh, fault)) {
+      if (typeof data === 'string' && /^.{0,300}\.\w+$/.test(data))
+        throw new TypeError('data is one short line: a file name? readFileSync(...) reads it');
       const [format, line, reason] = words(fault, 3);
       throw new SvcdError('SYNTAX', `${text(format)}: ${text(reason)}`, line);
     }
     return takeMesh(mesh);
   });
+  if (!quiet)
+    warnOfSize(parsed, scale, name);
+  return parsed;
 }
 
 export function convexHull(points) {
@@ -189,6 +211,10 @@ const ADOPTED = Symbol('adopted');  // the constructor is given a body, not a me
 function encodeMesh(mesh, options) {
   known('options', options, BODY_OPTIONS);
   const {patches = 0, patchRadius = 0, convexRadius = 0, open = false, coarse = false} = options;
+  if (mesh?.attributes)
+    throw new TypeError('a geometry of three.js is no mesh: give '
+      + '{positions: g.attributes.position.array, indices: g.index?.array}');
+  known('the mesh', mesh ?? {}, ['positions', 'indices']);
   const positions = float32('positions', mesh?.positions, 3);
   const indices = mesh.indices ? uint32('indices', mesh.indices, 3)
                                : Uint32Array.from({length: positions.length / 3}, (_, i) => i);
@@ -283,7 +309,7 @@ export class Body {
   static {
     addressOf = (body) => {
       if (!(body instanceof Body))
-        throw new TypeError('body must be a Body');
+        throw new TypeError('body must be a Body: new Body(mesh)');
       if (!body.#at)
         throw new Error('neuralsvcd: the body was disposed of');
       return body.#at;
@@ -305,20 +331,25 @@ const COUNTS = {work: 24, segments: 25};
 const QUESTION = ['a', 'b', 'ask', ...Object.keys({...LENGTHS, ...FLAGS, ...COUNTS})];
 
 function posesOf(poses) {
+  const hint = ': x y z and quaternion x y z w';
+  if (poses?.length === 0)
+    throw new TypeError('poses is empty: leave it out for a body that rests at the origin');
   if (ArrayBuffer.isView(poses) || typeof poses?.[0] === 'number')
-    return float32('poses', poses, 7);
+    return float32('poses', poses, 7, hint);
   if (!Array.isArray(poses))
     throw new TypeError('poses must be an array');
   return Float32Array.from(poses.flatMap((pose) => (
     pose?.position ? [...vector('position', pose.position, 3), ...vector('quaternion', pose.quaternion, 4)]
-                   : vector('a pose', pose, 7))));
+                   : vector('a pose', pose, 7, hint))));
 }
 
 // nsvcd_mover, written at `at`.
 function writeMover(at, what, mover, copy) {
+  if (mover instanceof Body)
+    throw new TypeError(`${what} is a body: write ${what}: {body: ...}`);
   known(what, mover, MOVER);
-  const {body, poses = [], times, scale = 1, pivot = [0, 0, 0]} = mover;
-  const given = posesOf(poses);
+  const {body, poses, times, scale = 1, pivot = [0, 0, 0]} = mover;
+  const given = poses === undefined ? [] : posesOf(poses);
   const count = given.length / 7;
   const timed = times && float32('times', times, 1);
   if (timed && timed.length !== count)
