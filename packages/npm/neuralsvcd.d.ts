@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Units are metres, axes right-handed. Quaternions are x, y, z, w: not w first. Time is in [0, 1]. Triangles are counter-clockwise seen from outside. What is
-// proven, and to which resolution, is in the contracts at the top of neuralsvcd.h, whose names are the same but for
-// their spelling. Numbers are rounded to float32.
+// Units are metres, axes right-handed. Quaternions are x, y, z, w: not w first. Time is in [0, 1]. Triangles are
+// counter-clockwise seen from outside. What is proven, and to which resolution, is in the contracts at the top of
+// neuralsvcd.h, whose names are the same but for their spelling. Numbers are rounded to float32.
 
 /** Compiles the module. Await it once before all else; further calls return the same promise. */
 export function init(): Promise<void>;
