@@ -104,6 +104,7 @@ check-32:  # 32 bits, under sanitizers; x87
 check-firmware: | build  # Cortex-M4F and M7, under QEMU
 	$(MAKE) -C examples/firmware LEVELS=O2 run
 	$(MAKE) -C examples/firmware LEVELS=Os BUILDS="proof network" run
+	+tests/firmware.sh
 	+tests/ways.sh firmware
 firmware: | build  ## Cortex-M under QEMU: answers as on the host; flash, RAM, stack and instructions as a table
 	$(MAKE) -C examples/firmware run table

@@ -1,7 +1,8 @@
 // bake.c - encodes meshes on the host, and writes the bodies as C arrays for a microcontroller.
 //
-//   bake proof|network|both POINTS OUT.h IN.obj|IN.stl ...
+//   bake proof|network|both POINTS OUT.h [--scale S] IN.obj|IN.stl ...
 //
+// --scale: metres in a unit of the files after it, 0.001 of millimetres.
 // proof: triangles, no latents. network: latents, no triangles. both: both. The array of
 // parts/my-mug.obj is named my_mug_body. BODIES_PATCHES is the most patches that one of them has.
 // Exit status: 0 done, 1 a file was refused, 2 usage.
@@ -46,7 +47,9 @@ static void write_body(FILE *file, const char *path, const char *name, const nsv
 }
 
 // Loads, encodes and writes one mesh. most: patches of a body so far, at most.
-static int bake(FILE *file, const char *path, const nsvcd_encode_options *options, size_t *most) {
+static int bake(FILE *file, const char *path, double scale, const nsvcd_encode_options *options,
+                size_t *most) {
+  nsvcd_mesh_options units = {0};
   char name[64];
   nsvcd_mesh mesh;
   const nsvcd_body *body = NULL;
@@ -54,7 +57,8 @@ static int bake(FILE *file, const char *path, const nsvcd_encode_options *option
     fprintf(stderr, "bake: %s: the name is too long\n", path);
     return 0;
   }
-  nsvcd_result result = nsvcd_mesh_load(path, NULL, NULL, &mesh, NULL);
+  units.scale = scale;
+  nsvcd_result result = nsvcd_mesh_load(path, &units, NULL, &mesh, NULL);
   if (!result) {
     result = nsvcd_encode(&mesh, options, NULL, NULL, 0, &body);
     nsvcd_mesh_free(&mesh, NULL);
@@ -72,7 +76,7 @@ static int bake(FILE *file, const char *path, const nsvcd_encode_options *option
 
 int main(int argc, char **argv) {
   if (argc < 5) {
-    fprintf(stderr, "bake proof|network|both POINTS OUT.h IN.obj|IN.stl ...\n");
+    fprintf(stderr, "bake proof|network|both POINTS OUT.h [--scale S] IN.obj|IN.stl ...\n");
     return 2;
   }
   nsvcd_encode_options options = {0};
@@ -88,8 +92,12 @@ int main(int argc, char **argv) {
   fprintf(file, "#include <stdint.h>\n");
   int good = 1;
   size_t most = 0;
+  double scale = 1;
   for (int i = 4; i < argc && good; i++) {
-    good = bake(file, argv[i], &options, &most);
+    if (strcmp(argv[i], "--scale") == 0 && i + 1 < argc)
+      good = (scale = strtod(argv[++i], NULL)) > 0;
+    else
+      good = bake(file, argv[i], scale, &options, &most);
   }
   fprintf(file, "\n#define BODIES_PATCHES %lu\n", (unsigned long)most);
   good &= !ferror(file);

@@ -1,7 +1,7 @@
 // own.c - bodies of your own on a microcontroller: does A hit B? The Makefile (`own`) bakes two meshes,
 // builds this for Cortex-M4F, runs it under QEMU and on the host, and prints what it takes.
 //
-// A moves from FROM to TO, x,y,z in metres, without turning; or, without these, straight through the
+// A moves from FROM to TO, x,y,z in metres (after SCALE), without turning; or, without these, straight through the
 // middle of B's box, along the axis along which B is thinnest. What it says is what a program of your
 // own would ask: change this one.
 #define NEURALSVCD_IMPLEMENTATION
