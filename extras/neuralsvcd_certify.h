@@ -29,7 +29,8 @@
 //     models          where a body is, how far points leave their chords
 //     planes          a plane that separates two nodes for an interval of time
 //     rays            what a ray crosses
-//     certify         the traversal, and its bits
+//     traversal       the traversal, and its bits
+//     certify         what is inside; answers
 //
 // GLOSSARY
 //   tree, node   boxes over a mesh's triangles; one of them, and its run of triangles
@@ -2107,7 +2108,7 @@ static int nsvcd__cast(const nsvcd__seen *s, nsvcd__d3 from, nsvcd__d3 along, in
   return 1;
 }
 
-// ----------------------------------------------------------------------------- certificate/certify
+// --------------------------------------------------------------------------- certificate/traversal
 // In: two motion models and two trees. Out: a certificate, or none. The form of its bits:
 //
 //   all       version 1 (6 bits), kind (2), digests of both meshes (8 each), of motions, scales and
@@ -2128,8 +2129,6 @@ static int nsvcd__cast(const nsvcd__seen *s, nsvcd__d3 from, nsvcd__d3 along, in
 #define NSVCD__SHORTEST_INTERVAL 1e-12
 // normals
 #define NSVCD__REMEMBERED 8
-// that are tried for a component
-#define NSVCD__RAYS 64
 // of both nodes' sides: where they move farther, the time is halved
 #define NSVCD__LONG_TRAVEL 0.35
 
@@ -2349,15 +2348,19 @@ static int nsvcd__divide_visit(nsvcd__certifier *c, nsvcd__visit *v, const nsvcd
   return 1;
 }
 
-// Depth first, over pairs of nodes and intervals of time. HIT: the certificate is that of a hit.
-static nsvcd_verdict nsvcd__prove_traversal(nsvcd__certifier *c, size_t visits) {
+// Depth first, over pairs of nodes and intervals of time. HIT: the certificate is that of a hit;
+// FREE: that of all of t0 to t1.
+static nsvcd_verdict nsvcd__prove_traversal(nsvcd__certifier *c, double t0, double t1,
+                                            size_t visits) {
   nsvcd__visit stack[NSVCD__TRAVERSAL_STACK];
   size_t height = 1;
   int is_unresolved = 0;
   memset(stack, 0, sizeof *stack);
   for (size_t n = 0; n < 2; n++)
     stack->pair.nodes[n].count = (uint32_t)c->bodies[n].tree->mesh.triangle_count;
-  stack->t1 = 1;
+  stack->t0 = t0;
+  stack->t1 = t1;
+  c->separated = 0;
   nsvcd__write_head(c, NSVCD__PROVES_FREE);
   while (height > 0) {
     nsvcd__visit *v = &stack[height - 1];
@@ -2366,7 +2369,7 @@ static nsvcd_verdict nsvcd__prove_traversal(nsvcd__certifier *c, size_t visits) 
     nsvcd__coded_normal normal;
     for (size_t n = 0; n < 2; n++)
       pair->radii[n] = nsvcd__node_radius(&c->bodies[n], &pair->nodes[n]);
-    if (c->made->visits == visits) {
+    if (c->made->visits >= visits) {
       c->made->why = NSVCD_WHY_WORK;
       return NSVCD_UNDECIDED;
     }
@@ -2397,6 +2400,18 @@ static nsvcd_verdict nsvcd__prove_traversal(nsvcd__certifier *c, size_t visits) 
   }
   return is_unresolved ? NSVCD_UNDECIDED : NSVCD_FREE;
 }
+
+// ----------------------------------------------------------------------------- certificate/certify
+// In: two motion models, two trees, perhaps an answer. Out: a certificate of what is free, of two
+// triangles that meet, or of a corner that is inside; or none.
+
+// rays that are tried for a component
+#define NSVCD__RAYS 64
+// instants at which a hit is looked for, and visits at each, at most
+#define NSVCD__INSTANTS 12
+#define NSVCD__INSTANT_VISITS 2000
+// visits to all of the motion before that
+#define NSVCD__FIRST_VISITS 20000
 
 // ---- containment
 
@@ -2473,6 +2488,48 @@ static int nsvcd__meet_as_answered(nsvcd__certifier *c, const nsvcd_answer *answ
   return 0;
 }
 
+// 1, 1/2, 1/4, 3/4, 1/8, 5/8, ...
+static double nsvcd__bit_reversed(int k) {
+  double fraction = k == 0;
+  double bit = 0.5;
+  for (int n = k; n > 0; n /= 2, bit /= 2) fraction += n % 2 * bit;
+  return fraction;
+}
+
+// Looks for a hit at single instants, from an answer's on or anywhere.
+static int nsvcd__meet_at_instants(nsvcd__certifier *c, const nsvcd_answer *answer,
+                                   size_t visits) {
+  const double from = answer ? (double)answer->time.high : 0;
+  if (answer && (answer->verdict == NSVCD_FREE || !(from >= 0 && from <= 1))) return 0;
+  for (int k = NSVCD__INSTANTS; k >= 0; k--) {
+    // soon after an answer's; or at the end, a half, quarters, eighths
+    const double fraction = answer ? ldexp(1, -k) : nsvcd__bit_reversed(NSVCD__INSTANTS - k);
+    const double t = nsvcd__min(from + (1 - from) * fraction, 1 - NSVCD__SHORTEST_INTERVAL);
+    const size_t most = c->made->visits + NSVCD__INSTANT_VISITS;
+    const size_t limit = most < visits ? most : visits;
+    if (nsvcd__prove_traversal(c, t, t + NSVCD__SHORTEST_INTERVAL, limit) == NSVCD_HIT)
+      return 1;
+  }
+  return 0;
+}
+
+// Over all time a traversal may lose itself among triangles that only touch, as those of flat
+// bodies that are set down: then, and where an answer says so, a hit is looked for at instants.
+static nsvcd_verdict nsvcd__prove_answer(nsvcd__certifier *c, const nsvcd_answer *answer,
+                                         size_t visits) {
+  const int is_hit = answer && answer->verdict == NSVCD_HIT;
+  nsvcd_verdict verdict = NSVCD_UNDECIDED;
+  if (!is_hit) {
+    verdict = nsvcd__prove_traversal(
+        c, 0, 1, visits < NSVCD__FIRST_VISITS ? visits : NSVCD__FIRST_VISITS);
+    if (verdict != NSVCD_UNDECIDED || visits <= NSVCD__FIRST_VISITS) return verdict;
+  }
+  const int meets = nsvcd__meet_at_instants(c, answer, visits);
+  c->made->why = NSVCD_WHY_NOTHING;
+  if (meets) return NSVCD_HIT;
+  return nsvcd__prove_traversal(c, 0, 1, visits);
+}
+
 static int nsvcd__has_open(const nsvcd_tree *tree) {
   for (size_t v = 0; v < tree->mesh.vertex_count; v++) {
     if (tree->open[v]) return 1;
@@ -2529,8 +2586,9 @@ NSVCDDEF nsvcd_result nsvcd_certify_models(
   c.digest = nsvcd__digest(models[0].digest + 31 * models[1].digest, &clearance, 1);
   c.made = &out;
   const nsvcd_answer *told = o->answer;
+  const size_t visits = o->visits ? o->visits : NSVCD_DEFAULT_VISITS;
   if (!told || !nsvcd__meet_as_answered(&c, told)) {
-    out.verdict = nsvcd__prove_traversal(&c, o->visits ? o->visits : NSVCD_DEFAULT_VISITS);
+    out.verdict = nsvcd__prove_answer(&c, told, visits);
     if (out.verdict == NSVCD_FREE && !c.separated) out.verdict = nsvcd__cast_all(&c, 0);
     if (out.verdict == NSVCD_FREE && !c.separated) out.verdict = nsvcd__cast_all(&c, 1);
   }

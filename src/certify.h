@@ -52,11 +52,12 @@ extern "C" {
 #include "ground/memory.h"     // the allocator; the rows of a workspace
 
 // ===================================================== certificate: a proof that others can check
-#include "certificate/tree.h"     // boxes over triangles, connected components
-#include "certificate/models.h"   // where a body is, how far points leave their chords
-#include "certificate/planes.h"   // a plane that separates two nodes for an interval of time
-#include "certificate/rays.h"     // what a ray crosses
-#include "certificate/certify.h"  // the traversal, and its bits
+#include "certificate/tree.h"       // boxes over triangles, connected components
+#include "certificate/models.h"     // where a body is, how far points leave their chords
+#include "certificate/planes.h"     // a plane that separates two nodes for an interval of time
+#include "certificate/rays.h"       // what a ray crosses
+#include "certificate/traversal.h"  // the traversal, and its bits
+#include "certificate/certify.h"    // what is inside; answers
 
 #if defined(__GNUC__) || defined(__clang__)
 #pragma GCC diagnostic pop
