@@ -86,6 +86,12 @@ int main(int argc, char **argv) {
     early[0].seconds = 0, early[1].seconds = 1;
     CHECK(ask(early, -2, -1).verdict == GUARD_FREE && ask(early, -1, 9).verdict == GUARD_HIT);
   }
+  // a stop as README asks about it, from 0.6 m/s within a second: 0.3 m, at a constant deceleration
+  const std::vector<Point> stop = {{zero, {0, 0.6, 0}, none, 0}, {{0, 0.3, 0}, zero, none, 1}};
+  for (double u = 0; u <= 1; u += 0.125)
+    CHECK(std::fabs(hermite(stop[0], stop[1], u) - (0.6 * u - 0.3 * u * u)) < 1e-12);
+  CHECK(at(0.501) && ask(stop, 0, 1).verdict == GUARD_FREE);
+  CHECK(at(0.499) && ask(stop, 0, 1).verdict == GUARD_HIT);
   CHECK(at(5));
   // several points: the pieces join, and a window over a knot is asked whole
   const std::vector<Point> three = {
