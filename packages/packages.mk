@@ -80,7 +80,7 @@ check-trajectory: build/test_guard build/controller build/svcd  # trajectories f
 	cat examples/robot/plans.txt >>build/cell.txt
 	build/svcd plan build/cell.txt --only up --samples 200 --joints build/up.tsv
 	build/controller build/cell.txt shelf person 1.68 build/up.tsv >build/controller.txt; cat build/controller.txt
-	grep -q 'stops: .*, person$$' build/controller.txt && grep -q '^there after' build/controller.txt
+	grep -q 'stops: .*, person$$' build/controller.txt && grep -q '^there after .* 0 cycles beyond' build/controller.txt
 	grep -q ' 0 allocations$$' build/controller.txt
 
 # What is published at npm: a folder that needs no other, and its archive.

@@ -47,15 +47,20 @@ static void make_shown(char *text) {
   }
 }
 
+// Where what is a part of another program puts the last complaint, for that to tell; NULL: it is printed.
+static char *complaint;
+static size_t complaint_size;
+
 // Prints "PROGRAM: ..." and returns 0: `return complain(...)` is how every reader below fails.
 static int complain(const char *format, ...) {
-  char text[8192];
+  char own[8192];
+  char *text = complaint ? complaint : own;
   va_list arguments;
   va_start(arguments, format);
-  vsnprintf(text, sizeof text, format, arguments);
+  vsnprintf(text, complaint ? complaint_size : sizeof own, format, arguments);
   va_end(arguments);
   make_shown(text);
-  fprintf(stderr, PROGRAM ": %s\n", text);
+  if (!complaint) fprintf(stderr, PROGRAM ": %s\n", text);
   return 0;
 }
 
@@ -63,13 +68,18 @@ static int complain(const char *format, ...) {
 // sweep --exit-code).
 static int status_of_failure = 1;
 
-// Memory for bodies and workspaces: malloc's is aligned for any type, and so to NSVCD_ALIGNMENT. A
-// tool may give up when there is none; the library never does.
-static void *allocate(size_t size) {
-  void *memory = malloc(size ? size : 1);
-  if (memory) return memory;
+// A tool may give up when there is no memory; the library never does.
+static void give_up(void) {
+  complaint = NULL;  // who would tell it ends too
   complain("out of memory");
   exit(status_of_failure);
+}
+
+// Memory for bodies and workspaces: malloc's is aligned for any type, and so to NSVCD_ALIGNMENT.
+static void *allocate(size_t size) {
+  void *memory = malloc(size ? size : 1);
+  if (!memory) give_up();
+  return memory;
 }
 
 // ------------------------------------------------------------------------------------------- files

@@ -30,9 +30,8 @@ static void *room_for_one(void *items, size_t count, size_t *capacity, size_t it
   if (count < *capacity) return items;
   *capacity = *capacity ? 2 * *capacity : 64;
   items = *capacity > SIZE_MAX / item_size ? NULL : realloc(items, *capacity * item_size);
-  if (items) return items;
-  complain("out of memory");
-  exit(status_of_failure);
+  if (!items) give_up();
+  return items;
 }
 
 // ----------------------------------------------------------------------------------------- numbers

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // controller.c - stands in for a controller at 1 kHz: every millisecond it is told where a person is, and asks
-// whether the next 200 ms of its trajectory are free. If they are not, it stops. Once the person has gone it
-// goes on.
+// whether the next 200 ms of its trajectory are free. If they are not, it brakes, on the trajectory: that
+// stays within what was proven last. Once the person has gone it goes on.
 //
 //   controller ROBOT.txt SCENE PERSON SECONDS JOINTS.tsv
 //
@@ -16,7 +16,10 @@
 
 #include "trajectory_guard.h"
 
-#define AHEAD 0.2      // seconds that are asked about: what stopping takes
+// seconds from full speed to rest: of each joint of arm.urdf, 3.14 rad/s at urdf.py's 3 times that
+#define BRAKING 0.34
+// seconds of the trajectory that are asked about: more than BRAKING / 2, what it goes on by meanwhile, and a cycle
+#define AHEAD 0.2
 #define BUDGET 0.0005  // of a millisecond
 #define MOST_POINTS 1024
 #define MOST_CYCLES 60000
@@ -61,6 +64,14 @@ static size_t read_points(const char *path, size_t joints, double seconds, doubl
   return count;
 }
 
+static void print_stop(double when, const guard_answer *answer) {
+  printf("%.3f s: stops", when);
+  if (answer->reason) printf(": undecided, %s", answer->reason);
+  if (answer->joint) printf(": %s leaves its limits", answer->joint);
+  if (answer->a) printf(": %s, %s", answer->a, answer->b);
+  printf("\n");
+}
+
 static double now(void) {
   struct timespec t;
   clock_gettime(CLOCK_MONOTONIC, &t);
@@ -72,15 +83,17 @@ int main(int argc, char **argv) {
   static double taken[MOST_CYCLES];
   if (argc != 6)
     return fprintf(stderr, "controller ROBOT.txt SCENE PERSON SECONDS JOINTS.tsv\n"), 2;
-  trajectory_guard *guard = guard_open(argv[1], argv[2], CLEARANCE, MOST_POINTS);
+  trajectory_guard *guard = guard_open(argv[1], argv[2], CLEARANCE, MOST_POINTS, NULL, 0);
   if (!guard) return 1;
   guard_trajectory t = {positions, velocities, NULL, times, 0};
   t.count = read_points(argv[5], guard_joints(guard), atof(argv[4]), positions, velocities, times);
   if (t.count < 2) return fprintf(stderr, "controller: %s has no points\n", argv[5]), 1;
 
   const double end = times[t.count - 1];
-  double at = 0;  // of the trajectory
-  size_t cycles = 0, held = 0, late = 0;
+  double at = 0;      // of the trajectory
+  double rate = 0;    // its seconds in a second: at rest
+  double proven = 0;  // free before this
+  size_t cycles = 0, rested = 0, late = 0, beyond = 0;
   int was_held = 0;
   const size_t allocated = allocations;
   const double began = now();
@@ -97,20 +110,23 @@ int main(int argc, char **argv) {
     if (answer.verdict == GUARD_REFUSED)
       return fprintf(stderr, "controller: %s\n", answer.reason), 1;
     const int holds = answer.verdict != GUARD_FREE;
-    if (holds != was_held)
-      printf("%.3f s: %s%s%s%s%s\n", when, holds ? "stops" : "goes on", answer.a ? ": " : "",
-             answer.a ? answer.a : "", answer.b ? ", " : "", answer.b ? answer.b : "");
+    if (holds && !was_held) print_stop(when, &answer);
+    if (!holds && was_held) printf("%.3f s: goes on\n", when);
     was_held = holds;
-    held += (size_t)holds;
-    if (!holds) at += 1e-3;
+    if (!holds) proven = at + AHEAD;
+    rate = holds ? fmax(rate - 1e-3 / BRAKING, 0) : fmin(rate + 1e-3 / BRAKING, 1);
+    at += 1e-3 * rate;
+    rested += !(rate > 0);
+    beyond += rate > 0 && at > proven;
     // the next millisecond
     const double next = began + 1e-3 * (double)cycles;
     late += now() > next;
     while (now() < next) {
     }
   }
-  printf("%s after %.3f s, held for %.3f s\n", at >= end ? "there" : "not there",
-         1e-3 * (double)cycles, 1e-3 * (double)held);
+  printf("%s after %.3f s, at rest for %.3f s, %lu cycles beyond what was proven\n",
+         at >= end ? "there" : "not there", 1e-3 * (double)cycles, 1e-3 * (double)rested,
+         (unsigned long)beyond);
   qsort(taken, cycles, sizeof *taken, compare);
   printf(
       "%lu answers: median %.0f us, 999 of 1000 within %.0f us, worst %.0f us; %lu cycles late; "

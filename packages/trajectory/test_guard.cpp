@@ -86,6 +86,12 @@ int main(int argc, char **argv) {
     early[0].seconds = 0, early[1].seconds = 1;
     CHECK(ask(early, -2, -1).verdict == GUARD_FREE && ask(early, -1, 9).verdict == GUARD_HIT);
   }
+  // a stop as README asks about it, from 0.6 m/s within a second: 0.3 m, at a constant deceleration
+  const std::vector<Point> stop = {{zero, {0, 0.6, 0}, none, 0}, {{0, 0.3, 0}, zero, none, 1}};
+  for (double u = 0; u <= 1; u += 0.125)
+    CHECK(std::fabs(hermite(stop[0], stop[1], u) - (0.6 * u - 0.3 * u * u)) < 1e-12);
+  CHECK(at(0.501) && ask(stop, 0, 1).verdict == GUARD_FREE);
+  CHECK(at(0.499) && ask(stop, 0, 1).verdict == GUARD_HIT);
   CHECK(at(5));
   // several points: the pieces join, and a window over a knot is asked whole
   const std::vector<Point> three = {
@@ -100,7 +106,7 @@ int main(int argc, char **argv) {
                             0,     0.258819f, 0.9659258f};  // so near that a box does not tell
   CHECK(guard.move("wall", slanted));
   const guard_answer late = guard.check(three, order, seconds_of, 0, 2, 1e-12);
-  CHECK(late.verdict == GUARD_UNDECIDED && late.reason);
+  CHECK(late.verdict == GUARD_UNDECIDED && std::string(late.reason) == "the time was up");
   CHECK(ask(three, 0, 2).verdict == GUARD_FREE && at(5));
   const guard_answer limit = ask({{zero, none, none, 0}, {{0, 3.1, 0}, none, none, 1}}, 0, 1);
   CHECK(limit.verdict == GUARD_HIT && limit.joint && std::string(limit.joint) == "slide");
@@ -130,23 +136,32 @@ int main(int argc, char **argv) {
   }
   CHECK(guard.check(three, order, seconds_of, 1, nan, 0).verdict == GUARD_REFUSED);
   CHECK(guard.check(three, {0}, seconds_of, 0, 1, 0).verdict == GUARD_REFUSED);
-  int thrown = 0;
-  try {
-    TrajectoryGuard none_such(path + ".no", "", 0, 8);
-  } catch (const std::runtime_error &) {
-    thrown++;
-  }
-  try {
-    TrajectoryGuard none_such(path, "hall", 0, 8);
-  } catch (const std::runtime_error &) {
-    thrown++;
-  }
+  // and what cannot be opened says why
+  const auto why_not = [](const std::string &file, const char *scene, float clearance,
+                          std::size_t most) {
+    try {
+      TrajectoryGuard none_such(file, scene, clearance, most);
+    } catch (const std::runtime_error &error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  CHECK(why_not(path + ".no", "", 0, 8).find(path + ".no: ") == 0);
+  CHECK(why_not(path, "hall", 0, 8) == path + ": no scene hall");
+  CHECK(why_not(path, "room", -1, 8) == "the clearance is negative, or no number");
+  CHECK(why_not(path, "room", 0, 0) == "most_points is 0, or too large");
+  std::ofstream(path + ".bad") << "nsvcd-plans 1\nbody box nowhere box: 1 1 1\n";
+  CHECK(why_not(path + ".bad", "", 0, 8).find(path + ".bad:2: ") == 0);
+  char brief[6];
+  CHECK(!guard_open((path + ".no").c_str(), nullptr, 0, 8, brief, sizeof brief) &&
+        brief == path.substr(0, 5));
+  std::string missing;
   try {
     guard.order_of({"slide"});
-  } catch (const std::invalid_argument &) {
-    thrown++;
+  } catch (const std::invalid_argument &error) {
+    missing = error.what();
   }
-  CHECK(thrown == 3);
+  CHECK(missing == "no joint spin");
   std::printf("test_guard: %d of %d\n", checks - failures, checks);
   return failures != 0;
 }

@@ -26,25 +26,31 @@ struct trajectory_guard {
   size_t joints, most_points;
   double *points;   // (NSVCD_MAX_DEGREE (most_points - 1) + 1, joints)
   double *times;    // (most_points)
-  double deadline;  // seconds of the clock; 0: there is none
+  double deadline;  // seconds of the clock
+  int is_late;      // it was reached
 };
 
 trajectory_guard *guard_open(const char *path, const char *scene, float clearance,
-                             size_t most_points) {
+                             size_t most_points, char *reason, size_t reason_size) {
   nsvcd_encode_options options;
   trajectory_guard *guard = (trajectory_guard *)allocate(sizeof *guard);
   size_t room = NSVCD_NONE, meshes;
   double taken;
   memset(guard, 0, sizeof *guard);
   memset(&options, 0, sizeof options);
+  complaint = reason_size > 0 ? reason : NULL;
+  complaint_size = reason_size;
   int good = read_robot(path, &guard->file);
   if (good && scene && !robot_find_room(&guard->file, scene, &room))
     good = complain("%s: no scene %s", path, scene);
   if (good && (most_points < 1 || most_points > SIZE_MAX / 16 / sizeof(double) / NSVCD_MAX_JOINTS))
     good = complain("most_points is 0, or too large");
+  if (good && !(clearance >= 0)) good = complain("the clearance is negative, or no number");
   if (good) need_room(&guard->file, room);
-  if (!good || !encode_robot(&guard->file, &options, &meshes, &taken) ||
-      !enter_room(&guard->file, room, clearance, &guard->in)) {
+  good = good && encode_robot(&guard->file, &options, &meshes, &taken) &&
+         enter_room(&guard->file, room, clearance, &guard->in);
+  complaint = NULL;
+  if (!good) {
     guard_close(guard);
     return NULL;
   }
@@ -146,7 +152,8 @@ static nsvcd_joint_motion guard_motion(trajectory_guard *guard, const guard_traj
 // ---- the question
 
 static int guard_is_late(void *user) {
-  return seconds() > ((const trajectory_guard *)user)->deadline;
+  trajectory_guard *guard = (trajectory_guard *)user;
+  return guard->is_late = seconds() > guard->deadline;
 }
 
 guard_answer guard_check(trajectory_guard *guard, const guard_trajectory *trajectory, double from,
@@ -163,6 +170,7 @@ guard_answer guard_check(trajectory_guard *guard, const guard_trajectory *trajec
   if (out.reason) return out;
   const nsvcd_joint_motion motion = guard_motion(guard, trajectory, from, to);
   guard->deadline = began + seconds_left;
+  guard->is_late = 0;
   options.stop = seconds_left > 0 ? guard_is_late : NULL;
   options.user = guard;
   const nsvcd_result result = nsvcd_check(guard->in.checker, &motion, &options, &answer);
@@ -180,7 +188,9 @@ guard_answer guard_check(trajectory_guard *guard, const guard_trajectory *trajec
     out.b = robot_name(&guard->in, guard->in.pairs[answer.pair].b);
   }
   if (out.verdict == GUARD_UNDECIDED)
-    out.reason = answer.why == NSVCD_WHY_WORK ? "not by the deadline" : "too near to tell";
+    out.reason = guard->is_late                 ? "the time was up"
+                 : answer.why == NSVCD_WHY_WORK ? "a pair took too much work"
+                                                : "too near to tell";
   if (answer.joint != NSVCD_NONE) {
     out.joint = guard->file.joint_names[answer.joint];
     out.verdict = GUARD_HIT;

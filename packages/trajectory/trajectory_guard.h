@@ -24,7 +24,7 @@ typedef struct guard_trajectory {
 } guard_trajectory;
 
 typedef enum guard_verdict {
-  GUARD_UNDECIDED,  // not by the deadline, or surfaces too near to tell: take it for a hit
+  GUARD_UNDECIDED,  // the time was up, or surfaces are too near to tell: take it for a hit
   GUARD_FREE,    // proven: at no time, between points too, does anything come within the clearance
   GUARD_HIT,     // proven: it does, or a joint leaves its limits
   GUARD_REFUSED  // `reason` says what is wrong with the trajectory
@@ -34,20 +34,22 @@ typedef struct guard_answer {
   guard_verdict verdict;
   double
       free_until;  // seconds: proven free before this; the end that was asked about if it is free
-  const char *a, *b;   // the two bodies of a hit, or between which it is undecided; NULL: none
-  const char *joint;   // the joint that leaves its limits; NULL: none does
-  const char *reason;  // why it is refused or undecided; NULL
+  // texts live until guard_close; NULL: none
+  const char *a, *b;   // the two bodies of a hit, or between which it is undecided
+  const char *joint;   // that leaves its limits
+  const char *reason;  // why it is refused or undecided
   double seconds;      // that the answer took
 } guard_answer;
 
-// Reads a planning file, encodes its meshes, and makes all that later calls need. NULL after a line on
-// standard error that says why not. May take seconds.
-//   path         of the planning file
+// Reads a planning file, encodes its meshes, and makes all that later calls need. NULL if that fails. May
+// take seconds. Not in two threads at once; where there is no memory the process ends.
+//   path         of the planning file; those of its meshes are relative to its folder
 //   scene        the name of one of its scenes; NULL: there are no obstacles
 //   clearance    metres, to obstacles; the file's clearances hold besides
 //   most_points  of a trajectory
+//   reason       why it is NULL, a line of at most reason_size - 1 bytes; NULL: on standard error
 trajectory_guard *guard_open(const char *path, const char *scene, float clearance,
-                             size_t most_points);
+                             size_t most_points, char *reason, size_t reason_size);
 void guard_close(trajectory_guard *guard);  // NULL: nothing happens
 
 // The joints, in the order of the file: names and how many.
@@ -56,12 +58,13 @@ const char *guard_joint_name(const trajectory_guard *guard, size_t joint);
 
 // Is the trajectory free from one time to another? `from` and `to` are clamped to it. seconds: the answer
 // is UNDECIDED if it would take longer than that, by a fraction of a millisecond; 0: it may take as
-// long as it takes. Each thread needs a guard of its own.
+// long as it takes. That is the clock's time: a thread that the kernel does not run is late. Each
+// thread needs a guard of its own.
 guard_answer guard_check(trajectory_guard *guard, const guard_trajectory *trajectory, double from,
                          double to, double seconds);
 
 // Puts an obstacle elsewhere, as a camera has it: metres, and a unit quaternion x y z w. It rests there for
-// later checks: what moves needs a clearance for its way until the next call. 0: there is no such
+// later checks: what moves needs a clearance for its way until the robot rests. 0: there is no such
 // obstacle, or that is no pose; then nothing has changed.
 int guard_move(trajectory_guard *guard, const char *obstacle, const float pose[7]);
 

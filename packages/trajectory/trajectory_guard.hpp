@@ -12,13 +12,14 @@
 
 class TrajectoryGuard {
  public:
-  // As guard_open; scene "": no obstacles. Throws std::runtime_error where it returns NULL.
+  // As guard_open; scene "": no obstacles. Throws std::runtime_error, which says why, where that is NULL.
   TrajectoryGuard(const std::string &planning_file, const std::string &scene, float clearance,
                   std::size_t most_points)
-      : guard_(guard_open(planning_file.c_str(), scene.empty() ? nullptr : scene.c_str(), clearance,
-                          most_points),
-               guard_close) {
-    if (!guard_) throw std::runtime_error("no guard of " + planning_file + ": see standard error");
+      : guard_(nullptr, guard_close) {
+    char reason[1024] = "";
+    guard_.reset(guard_open(planning_file.c_str(), scene.empty() ? nullptr : scene.c_str(),
+                            clearance, most_points, reason, sizeof reason));
+    if (!guard_) throw std::runtime_error(reason);
     const std::size_t all = most_points * joints();
     for (std::vector<double> *values : {&positions_, &velocities_, &accelerations_})
       values->resize(all);
@@ -32,7 +33,7 @@ class TrajectoryGuard {
   }
 
   // The place of each joint of a message in the guard's order. Throws std::invalid_argument if a joint of
-  // the guard is missing. Joints that it does not know are left out.
+  // the guard is missing. Joints that it does not know are left out. Allocates.
   std::vector<std::size_t> order_of(const std::vector<std::string> &names) const {
     std::vector<std::size_t> order;
     for (std::size_t joint = 0; joint < joints(); joint++) {
