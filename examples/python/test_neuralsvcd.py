@@ -1505,7 +1505,7 @@ class Worlds(unittest.TestCase):
                 (Code.INDEX, "mover", lambda: world.sweep(0)),
                 (Code.QUATERNION, "poses", lambda: world.sweep(2, turned)),
                 (Code.TIMES, "times", lambda: world.sweep(2, down, times=[1, 0])),
-                (Code.ASK, "", lambda: world.sweep(2, ask="distance")),
+                (Code.ASK, "ask", lambda: world.sweep(2, ask="distance")),
                 (Code.CLEARANCE, "", lambda: world.sweep(2, clearance=-1)),
                 (Code.DISTANCE, "distance", lambda: world.pairs(-1)),
                 (Code.INDEX, "id", lambda: world.slide(9, rest, 1)),
@@ -2042,6 +2042,49 @@ class Readme(unittest.TestCase):
         listed = re.findall(r"\w+", nsvcd.__doc__[nsvcd.__doc__.index("\nNAMES\n"):])
         public = [name for name, value in vars(nsvcd).items() if name[0] != "_" and not isinstance(value, types.ModuleType)]
         self.assertEqual([name for name in public if name not in listed], [])
+
+
+class Newcomers(unittest.TestCase):
+    """What they do first, and what they are told."""
+
+    def test_beyond_limits(self) -> None:
+        joint = nsvcd.Joint(0, low=-3, high=3)
+        robot = nsvcd.Robot([joint], [nsvcd.Part(BOX, 1), nsvcd.Part(BOX, 0, pose=(5, 0, 0, 0, 0, 0, 1))], [(0, 1)])
+        within, beyond = robot.check([[0], [2]]), robot.check([[0], [90]])
+        self.assertEqual((within.verdict, bool(within), beyond.verdict, beyond.joint, bool(beyond)), ("free", False, "free", 0, True))
+
+    def test_set_down_flat(self) -> None:
+        """Faces on faces at the first contact: with its answer, with none, the hit is proven; the certificate itself is taken."""
+        ground, random = nsvcd.Mesh.box([1, 1, 0.5]), np.random.default_rng(52)
+        for _ in range(40):
+            sizes, place = random.uniform(0.05, 0.3, 3), random.uniform(-0.2, 0.2, 2)
+            thing = nsvcd.Mesh.box(sizes)
+            path = nsvcd.poses([[*place, 2], [*place, 0.25 + sizes[2] / 2 - random.uniform(0.005, 0.05)]])
+            for answer in None, nsvcd.sweep(thing, ground, path, ask="first"):
+                certificate = nsvcd.certify(thing, ground, path, answer=answer)
+                # of meshes that are nobody's but this call's: what it makes of them must live as long as it
+                report = nsvcd_verify.verify(certificate, tuple(thing), tuple(ground), path)
+                self.assertEqual((certificate.verdict, report.kind, report.reason), ("hit", "hit", ""))
+
+    def test_told(self) -> None:
+        with tempfile.TemporaryDirectory() as folder:
+            file = Path(folder) / "open.obj"
+            file.write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\n")
+            with self.assertWarnsRegex(UserWarning, "open.obj: not a closed surface: 3 open edges; .* open=True") as warned:
+                nsvcd.Body(file)
+            self.assertEqual(warned.filename, __file__)
+            with warnings.catch_warnings():
+                warnings.simplefilter("error")
+                nsvcd.Body(file, open=True)
+        world = nsvcd.World(1)
+        world.add(BOX)
+        for told, wrong in (("the world is full", lambda: world.add(BOX)),
+                            ("the order is sweep", lambda: nsvcd.sweep(BOX, [[0, 0, 0]], BOX)),
+                            ("no pose; None is at rest", lambda: nsvcd.sweep(BOX, BOX, [])),
+                            (r"neuralsvcd.poses\(path\) makes it", lambda: nsvcd_verify.verify(b"", BOX.mesh, BOX.mesh, [[0, 0, 0]])),
+                            ("its mesh is body.mesh", lambda: nsvcd_verify.Mesh(BOX))):
+            with self.assertRaisesRegex(Exception, told):
+                wrong()
 
 
 class Wheel(unittest.TestCase):

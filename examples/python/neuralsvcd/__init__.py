@@ -67,6 +67,7 @@ ROBOTS
     arm = Robot.from_urdf("../robot/arm.urdf", srdf="../robot/arm.srdf", obstacles="../robot/shelf.urdf")
     checked = arm.check({"pan": [0, 1], "lift": -0.5, "elbow": 0.5, "wrist_1": 0, "wrist_2": 0, "wrist_3": 0})
     if checked.verdict == "hit": print(arm.pair_names(checked.pair))
+    if checked.joint is not None: print(arm.joint_names[checked.joint], "leaves its limits")
 
 WORLDS
   A World has bodies at their places, by ids. world.sweep(id or body, path) asks about one and all others; world.slide moves one as

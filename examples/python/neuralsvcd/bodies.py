@@ -5,6 +5,7 @@ from __future__ import annotations
 import ctypes
 import functools
 import operator
+import os
 from collections.abc import Callable
 from ctypes import byref, c_float, c_void_p
 from pathlib import Path
@@ -18,7 +19,7 @@ from ._structs import _EncodeOptions, _PROGRESS
 from ._library import _library
 from .errors import _check, _check_of, Error
 from ._arrays import _address, _cancels, FilePath, _filled, _floats, _memory, _number, _numeric, _vector, Vector
-from .meshes import _c_mesh, Mesh, MeshLike, _surface_of
+from .meshes import _c_mesh, Mesh, MeshLike, _surface_of, _warn
 
 
 def _check_radius(radius: float) -> None:
@@ -113,6 +114,9 @@ class Body:
             raise caught[0]
         _check(code)
         self._take(body, Mesh(*c_mesh.kept))
+        if isinstance(mesh, (str, os.PathLike)) and not open and self.facts.open_edges:
+            _warn(f"{os.fspath(mesh)}: not a closed surface: {self.facts.open_edges} open edges; what is inside of it is not known "
+                  "to be inside; open=True says that it is a sheet")
 
     @classmethod
     def box(cls, extents: ArrayLike, convex_radius: float = 0) -> Body:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ctypes import byref
-from typing import Any, Optional
+from typing import Any, Mapping, Optional, Union
 
 from .words import Code
 from ._structs import _Question
@@ -43,10 +43,19 @@ def _check(code: int) -> None:
         raise Error(code)
 
 
-def _check_of(code: int, names: dict[Code, str]) -> None:
-    """As _check. Which argument is at fault is told by the code, for each call."""
+_Names = Mapping[Code, Union[str, tuple[str, str]]]
+
+
+def _fault_of(code: int, names: _Names, index: Optional[int] = None) -> Error:
+    """Which argument is at fault is told by the code, for each call; and why, where the library's words are about others."""
+    where = names.get(Code(code), "")
+    return Error(code, where, index=index) if isinstance(where, str) else Error(code, where[0], index=index, reason=where[1])
+
+
+def _check_of(code: int, names: _Names) -> None:
+    """As _check, of named arguments."""
     if code:
-        raise Error(code, names.get(Code(code), ""))
+        raise _fault_of(code, names)
 
 
 _OF_MOVERS = {Code.POSES: "poses", Code.POSE: "poses", Code.QUATERNION: "poses", Code.TIMES: "times", Code.SCALE: "scale"}

@@ -203,10 +203,14 @@ def _warn_of_size(mesh: Mesh, scale: float, name: str) -> None:
     extent = float(np.ptp(mesh.vertices, axis=0).max())
     if 0.001 <= extent <= 30:
         return
+    is_large = extent > 30
+    question = "are these millimetres? try scale=" if is_large else "is it too small by a thousand? try scale="
+    _warn(f"{name}: a body of {extent:.4g} m: {question}{scale / 1000 if is_large else scale * 1000:g}")
+
+
+def _warn(text: str) -> None:
+    """A warning about the line that called this package."""
     level, frame = 2, sys._getframe(1)
     while frame.f_back and frame.f_globals.get("__package__") == __package__:
         level, frame = level + 1, frame.f_back
-    is_large = extent > 30
-    question = "are these millimetres? try scale=" if is_large else "is it too small by a thousand? try scale="
-    warnings.warn(f"{name}: a body of {extent:.4g} m: {question}{scale / 1000 if is_large else scale * 1000:g}",
-                  stacklevel=level)
+    warnings.warn(text, stacklevel=level)

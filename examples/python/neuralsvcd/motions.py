@@ -54,7 +54,10 @@ def _numbers(given: Any, name: str) -> NDArray[Any]:
                          "poses(positions, rotations=rotations)") from None
     if array.dtype.kind not in "fiu":
         kind = type(leaf).__name__ if array.dtype.kind == "O" else array.dtype
-        raise TypeError(f"{name}: numbers are needed, or what is a pose elsewhere, as help(neuralsvcd.poses) lists, not {kind}")
+        hint = ": the order is sweep(a, b, poses_a, poses_b)" if kind == "Body" else ""
+        raise TypeError(f"{name}: numbers are needed, or what is a pose elsewhere, as help(neuralsvcd.poses) lists, not {kind}{hint}")
+    if array.shape == (0,):
+        raise ValueError(f"{name}: no pose; None is at rest at the origin")
     return array
 
 

@@ -80,7 +80,9 @@ class Motion(NamedTuple):
 class Checked(NamedTuple):
     """nsvcd_check_answer.
 
-    verdict       FREE: at all times of the joints' own motion
+    As a condition it is that the motion is not to be made: it is not free, or a joint leaves its limits.
+
+    verdict       FREE: at all times of the joints' own motion, whether or not they keep their limits
     why           it is UNDECIDED
     pair          of a HIT, or of what is UNDECIDED: its index, or None
     piece, fraction  where in the motion, or None; of a HIT, which need not be the first
@@ -102,6 +104,9 @@ class Checked(NamedTuple):
     sweeps: int
     free_until: float
     cone: Optional[int]
+
+    def __bool__(self) -> bool:
+        return self.verdict is not Verdict.FREE or self.joint is not None
 
 
 class Proximity(NamedTuple):

@@ -99,6 +99,8 @@ def _read_urdf(path: FilePath, srdf: Optional[FilePath], obstacles: Union[FilePa
         rows = [{"body": _encoded(reader, found.bodies[int(text.split()[2])], 0), "link": 0, "name": text.split()[1],
                  "pose": [float(number) for number in text.split()[3:10]]} for text in texts]
     else:
+        if not all(hasattr(part, "_asdict") for part in obstacles):
+            raise TypeError("obstacles: a URDF's path, or Parts: [Part(body, 0, pose=...)]")
         rows = [part._asdict() for part in cast(Sequence[Any], obstacles)]
     pairs += [(k, len(parts) + n) for k in moving for n in range(len(rows))]
     return _Scene(joints, parts + rows, pairs)

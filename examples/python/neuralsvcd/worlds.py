@@ -16,7 +16,7 @@ from ._structs import (
     _SlideAnswer, _SlideOptions, _StepAnswer, _StepOptions, _struct, _WorldAnswer, _WorldBody, _WorldContact,
     _WorldQuestion)
 from ._library import _library
-from .errors import _check, _check_of, Error
+from .errors import _check, _check_of, _fault_of, _Names, Error
 from ._arrays import _address, _filled, Floats, _floats, _IDENTITY, _memory, _number, Pose, _pose_tuple, _vector, Vector
 from .bodies import Body, _body_of, BodyLike
 from .motions import _motion, _pose_of
@@ -117,16 +117,17 @@ class _Door:
             yield
 
 
-_OF_BODY = {Code.COUNT: "most", Code.POSE: "pose", Code.QUATERNION: "pose", Code.SCALE: "scale", Code.PIVOT: "pivot",
+_OF_BODY: _Names = {Code.COUNT: ("most", "the world is full: World(most) has room for more"), Code.POSE: "pose", Code.QUATERNION: "pose", Code.SCALE: "scale", Code.PIVOT: "pivot",
             Code.TRIANGLES: "body"}
 _OF_ID = {Code.INDEX: "id", Code.POSE: "pose", Code.QUATERNION: "pose"}
-_OF_MOVER = {Code.INDEX: "mover", Code.POSES: "poses", Code.POSE: "poses", Code.QUATERNION: "poses", Code.TIMES: "times",
+_OF_MOVER: _Names = {Code.ASK: ("ask", "of a World it is hit or first"), Code.INDEX: "mover", Code.POSES: "poses", Code.POSE: "poses", Code.QUATERNION: "poses", Code.TIMES: "times",
              Code.SCALE: "scale", Code.PIVOT: "pivot", Code.TRIANGLES: "mover"}
-_OF_SLIDE = {Code.INDEX: "id", Code.SPEED: "velocity", Code.TIMES: "seconds", Code.CLEARANCE: "clearance, margin",
+_OF_SLIDE: _Names = {Code.INDEX: "id", Code.SPEED: "velocity", Code.TIMES: "seconds", Code.CLEARANCE: "clearance, margin",
              Code.AXIS: "up", Code.DISTANCE: "step", Code.VALUE: "mass, inertia, friction, restitution, slope"}
-_OF_STEP = {Code.INDEX: "ids", Code.TIMES: "seconds, calm", Code.SPEED: "quiet", Code.VALUE: "gravity"}
-_OF_STEPPED = {**_OF_SLIDE, Code.INDEX: "ids", Code.POSE: "movers",
-               Code.VALUE: "mass, inertia, friction, restitution, slope, push_mass, damping, spin_damping"}
+_OF_STEP: _Names = {Code.INDEX: "ids", Code.TIMES: ("seconds, calm", "seconds must be above 0, calm not below"), Code.SPEED: "quiet", Code.VALUE: "gravity"}
+_OF_STEPPED: _Names = {**_OF_SLIDE, Code.INDEX: ("ids", "there is no such body, or it is fixed"), Code.POSE: "movers",
+               Code.VALUE: ("mass, inertia, friction, restitution, slope, push_mass, damping, spin_damping",
+                            "one of these is negative, or no number")}
 
 
 class World:
@@ -350,7 +351,7 @@ class World:
             if code in (0, Code.POSE):
                 movers.__dict__["_world"] = self
         if code and answer.refused:
-            raise Error(code, _OF_STEPPED.get(code, ""), index=int(np.argmax(movers.ids == answer.refused)))
+            raise _fault_of(code, _OF_STEPPED, int(np.argmax(movers.ids == answer.refused)))
         _check_of(code, _OF_STEP)
         return Step(answer.awake, answer.asleep, answer.caught, answer.contacts, answer.questions, answer.work)
 

@@ -78,7 +78,8 @@ def _array(value: ArrayLike, columns: tuple[int, ...], name: str, kind: Any = np
     if array.dtype.kind not in ("iu" if kind is np.uint32 else "fiu"):
         raise TypeError(f"{name}: an array of numbers is needed, not of {array.dtype}")
     if array.ndim != 1 + len(columns) or array.shape[1:] != columns:
-        raise ValueError(f"{name}: an array {('n', *columns)} is needed, not {array.shape}")
+        hint = ": neuralsvcd.poses(path) makes it" if columns == (7,) else ""
+        raise ValueError(f"{name}: an array ({', '.join(map(str, ('n', *columns)))}) is needed, not {array.shape}{hint}")
     if kind is np.uint32 and array.size and not (0 <= array.min() and array.max() <= 0xffffffff):
         raise ValueError(f"{name}: an index is out of range")
     return np.array(array, kind, order="C")
@@ -113,7 +114,8 @@ class Mesh:
         elif isinstance(mesh, (tuple, list)) and len(mesh) == 2:
             vertices, faces = mesh
         else:
-            raise TypeError(f"a mesh is (vertices, faces), or what has these, not {type(mesh).__name__}")
+            hint = ": its mesh is body.mesh" if hasattr(mesh, "mesh") else ": neuralsvcd.Mesh.load reads files" if isinstance(mesh, str) else ""
+            raise TypeError(f"a mesh is (vertices, faces), or what has these, not {type(mesh).__name__}{hint}")
         self._kept = _array(vertices, (3,), "vertices"), _array(faces, (3,), "faces", np.uint32)
         counts = tuple(map(len, self._kept))
         self._memory = _memory(_library.verifier_mesh_size(*counts))
@@ -162,13 +164,13 @@ def _mover(given: Any, poses: Optional[ArrayLike], times: Optional[ArrayLike], s
     _check(_library.verifier_mover_init(_address(mesh._memory), c_float(scale), _address(kept_poses),
                                         None if times is None else _address(kept_times), len(kept_poses),
                                         _address(out)), f"{side}: ")
-    return out, kept_poses, kept_times, mesh._memory
+    return out, kept_poses, kept_times, mesh._memory, *mesh._kept
 
 
 def verify(certificate: Any, a: Any, b: Any, poses_a: Optional[ArrayLike] = None,
            poses_b: Optional[ArrayLike] = None, *, times_a: Optional[ArrayLike] = None,
            times_b: Optional[ArrayLike] = None, scale_a: float = 1, scale_b: float = 1, clearance: float = 0) -> Report:
-    """Does a certificate, bytes or another buffer, prove something of two meshes that move?
+    """Does a certificate, bytes or another buffer, or what has them as `bytes`, prove something of two meshes that move?
 
     a, b              each a Mesh, or what one is made of
     poses_a, poses_b  (k, 7) x y z in metres, unit quaternion x y z w; k may differ; one pose: it rests there; None: it
@@ -177,7 +179,7 @@ def verify(certificate: Any, a: Any, b: Any, poses_a: Optional[ArrayLike] = None
     scale_a, scale_b  of the meshes, about their origins, 1e-6 to 1e6
     clearance         metres: what is free is never as near as this
     """
-    data = memoryview(certificate).tobytes()
+    data = memoryview(getattr(certificate, "bytes", certificate)).tobytes()
     movers = _mover(a, poses_a, times_a, scale_a, "a"), _mover(b, poses_b, times_b, scale_b, "b")
     first, second = (_address(mover[0]) for mover in movers)
     workspace = _memory(_library.verifier_workspace_size(first, second))
