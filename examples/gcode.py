@@ -152,8 +152,8 @@ def table(lines, start, rapid, chord, skipped):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("program", help="a file of G-code; -: standard input")
-    parser.add_argument("--start", default="0,0,0", metavar="X,Y,Z", help="mm: where the tool is as it begins; with =, as in --start=-300,0,50, if it begins "
-                        "with a minus (%(default)s)")
+    parser.add_argument("--start", default="0,0,0", metavar="X,Y,Z",
+                        help="mm: where the tool is as it begins; with =, as in --start=-300,0,50, if a minus is first (%(default)s)")
     parser.add_argument("--rapid", type=float, default=5000, help="mm a minute of G0 (%(default)s)")
     parser.add_argument("--chord", type=float, default=0.005, help="mm that a chord may leave its arc by (%(default)s)")
     parser.add_argument("--skip", default="", metavar="G28,...", help="pass over lines with these codes")

@@ -77,8 +77,8 @@ static const option options[] = {
      "finds the first contact, to this fraction of the motion, or to metres: 0.001m (0: any "
      "contact)"},
     {"--first", SWEEP, OPTION_LENGTH, AT(first), 0, 1, "or metres: 0.001m", "T|METRESm",
-     "finds the first contact, to this fraction of the motion, or to metres: 0.001m (0.001; 0: any "
-     "contact)"},
+     "finds the first contact, to this fraction of the motion, or to metres: 0.001m (0.001; with "
+     "--poses 1e-6; 0: any contact)"},
     {"--first", PATH, OPTION_NUMBER, AT(first_to), 1e-9, 1e6, NULL, "S",
      "finds the first hit of a curve, or of motions together, to so many seconds (curves: any hit; "
      "together: 0.001)"},

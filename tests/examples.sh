@@ -397,8 +397,10 @@ awk 'BEGIN { for (i = 0; i <= 4000; i++) print 0.25, 0.25, 5 - i / 400 }' >"$dir
 for drawn in '' "--picture $dir/long.svg"; do
   # shellcheck disable=SC2086
   verdict '^hit at t = 0.40[0-9]* (after line 1600), the first' "$dir/cube.obj" "$dir/cube.obj" --scale .5,1 --poses "$dir/long.csv" --all $drawn
+  head -1 "$dir/out" >>"$dir/drawn"
   line '^contact *lines 1600 to [0-9]*, first at t = 0.40[0-9]* (after line 1600): '
 done
+test "$(sort -u "$dir/drawn" | wc -l)" = 1 || fail "a picture changes the answer: $(cat "$dir/drawn")"
 # table REASON TEXT: refused.
 table() {
   printf "$2" >"$dir/bad.csv"
