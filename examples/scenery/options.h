@@ -111,9 +111,10 @@ static int refuse_value(const option *o, const char *value) {
   const char *limit = o->text ? o->text : "";
   snprintf(words, sizeof words, "%s", limit);
   for (char *c = words; *c; c++) *c = *c == '|' ? ' ' : *c;
-  const int is_metres = o->value && strstr(o->value, "METRES") != NULL;
-  double number;
-  if (is_metres && !parse_number(value, &number))
+  char *unit;
+  strtod(value, &unit);
+  const int is_other = unit != value && *unit && strcmp(unit, o->kind == OPTION_LENGTH ? "m" : "");
+  if (is_other && o->value && strstr(o->value, "METRES"))
     complain("%s %s: expected metres, as 0.005%s", o->name, value,
              o->kind == OPTION_LENGTH ? "m, or a fraction of the motion, as 0.001" : "");
   else if (o->kind == OPTION_WORD)
