@@ -2,19 +2,21 @@
 # SPDX-License-Identifier: MIT
 """gcode.py - the way of a tool, from G-code to a table for `svcd sweep --poses`.
 
-    python3 examples/gcode.py part.nc >way.csv
+    python3 examples/gcode.py part.nc >way.csv &&
     svcd sweep tool.stl fixture.stl --scale 0.001 --poses way.csv --all
 
 Reads G0 to G3 (arcs in any plane, by I J K or R, helices too), G4 (P in seconds), G17 to G19, G20, G21, G90, G91, G90.1,
 G91.1, G92 and F. The places are those of the tool's tip, as the program has them: it is to be the origin of the tool's
 mesh. The tool does not turn. Prints `t, x, y, z  # line N`: seconds, metres, the line of the program. An arc becomes chords
 that leave it by --chord at most: ask svcd for that much --clearance. Time is way by feed, without acceleration. No motion
-is dropped in silence: a code that is not known, an axis other than X, Y and Z, and a variable end it, with the line;
+is dropped in silence: a code that is not known, an axis other than X, Y and Z, and a variable end it, with the line, the
+exit status 1 and no table at all;
 --skip G28,G53 passes over lines with these codes and says so. M, S, T, H, D, N and O are skipped, and so are G40, G43,
 G49, G54, G64, G80, G94 and the like.
 """
 import argparse
 import math
+import os
 import re
 import sys
 
@@ -111,7 +113,7 @@ def table(lines, start, rapid, chord, skipped):
                 elif code == 92:
                     sets = True
                 elif code not in HARMLESS and not 54 <= code <= 59.3:
-                    raise Refused(f"G{code:g} is not known")
+                    raise Refused(f"G{code:g} is not known (--skip G{code:g} passes over lines with it)")
             rotary = sorted(set("ABCUVW") & set(words))
             if rotary:
                 raise Refused(f"axis {rotary[0]}: only X, Y and Z are known")
@@ -150,7 +152,8 @@ def table(lines, start, rapid, chord, skipped):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("program", help="a file of G-code; -: standard input")
-    parser.add_argument("--start", default="0,0,0", metavar="X,Y,Z", help="mm: where the tool is as it begins (%(default)s)")
+    parser.add_argument("--start", default="0,0,0", metavar="X,Y,Z",
+                        help="mm: where the tool is as it begins; with =, as in --start=-300,0,50, if a minus is first (%(default)s)")
     parser.add_argument("--rapid", type=float, default=5000, help="mm a minute of G0 (%(default)s)")
     parser.add_argument("--chord", type=float, default=0.005, help="mm that a chord may leave its arc by (%(default)s)")
     parser.add_argument("--skip", default="", metavar="G28,...", help="pass over lines with these codes")
@@ -160,11 +163,17 @@ def main():
     if not options.rapid > 0 or not options.chord > 0 or len(start) != 3:
         parser.error("--start is X,Y,Z; --rapid and --chord are above 0")
     with sys.stdin if options.program == "-" else open(options.program, encoding="utf-8", errors="replace") as lines:
-        print("t, x, y, z")
-        for when, (x, y, z), line in table(
-                lines, start, options.rapid / 60000, options.chord / 1000, {float(code) for code in skipped}):
-            print(f"{when:.9g}, {x:.9g}, {y:.9g}, {z:.9g}  # line {line}")
+        rows = list(table(lines, start, options.rapid / 60000, options.chord / 1000, {float(code) for code in skipped}))
+    # a part of a table would be proven free as if it were all: so it is printed once it is whole
+    print("t, x, y, z")
+    for when, (x, y, z), line in rows:
+        print(f"{when:.9g}, {x:.9g}, {y:.9g}, {z:.9g}  # line {line}")
+    sys.stdout.flush()
 
 
 if __name__ == "__main__":
-    main()
+    try:
+        main()
+    except OSError as error:  # of the program, or of whoever reads the table
+        os.dup2(os.open(os.devnull, os.O_WRONLY), 1)  # else python flushes into it once more, and complains
+        sys.exit(f"gcode.py: {error}")

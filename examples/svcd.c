@@ -30,18 +30,22 @@ enum { CHECK = 1, ENCODE = 2, INFO = 4, SWEEP = 8, PLAN = 16, PATH = 32, PAIRS =
 #define DIGITS(macro) TEXT_OF(macro)
 static const option options[] = {
     {"--from", SWEEP, OPTION_TEXT, AT(from), 0, 0, NULL, "POSE",
-     "x,y,z[,qx,qy,qz,qw]: the pose of A at t = 0 (as its file has it)"},
+     "x,y,z[,qx,qy,qz,qw]: the pose of A at t = 0, in metres, whatever --scale says (as its file "
+     "has "
+     "it)"},
     {"--to", SWEEP, OPTION_TEXT, AT(to), 0, 0, NULL, "POSE", "the same at t = 1"},
     {"--rotate", SWEEP, OPTION_TEXT, AT(rotate), 0, 0, NULL, "AXIS,DEG",
      "A turns by this on its way, about its origin: z,90"},
     {"--poses", SWEEP, OPTION_TEXT, AT(poses), 0, 0, NULL, "TABLE",
-     "the poses of A, a line each: [t] x y z [qx qy qz qw], between blanks or commas; instead of "
-     "--from, --to and --rotate"},
+     "the poses of A, a line each: [t] x y z [qx qy qz qw], between blanks or commas, in metres, "
+     "whatever --scale says; instead of --from, --to and --rotate"},
     {"--all", SWEEP, OPTION_FLAG, AT(all), 0, 0, NULL, NULL,
      "with --poses: lists all lines of the table between which there is a contact, and the first "
      "contact there"},
     {"--scale", ENCODE | INFO | SWEEP, OPTION_TEXT, AT(scale), 0, 0, NULL, "S[,S]",
-     "converts to metres: 0.001 for millimetres; with two files, one for both or one for each (1)"},
+     "converts files to metres: 0.001 for millimetres; with two files, one for both or one for "
+     "each "
+     "(1)"},
     {"--recentre", ENCODE | INFO | SWEEP, OPTION_FLAG, AT(recentre), 0, 0, NULL, NULL,
      "subtracts the centre of each mesh's box, in whole units of its file, from its coordinates, "
      "as a map needs it; poses mean what they do without, but A turns about its centre"},
@@ -73,8 +77,8 @@ static const option options[] = {
      "finds the first contact, to this fraction of the motion, or to metres: 0.001m (0: any "
      "contact)"},
     {"--first", SWEEP, OPTION_LENGTH, AT(first), 0, 1, "or metres: 0.001m", "T|METRESm",
-     "finds the first contact, to this fraction of the motion, or to metres: 0.001m (0.001; 0: any "
-     "contact)"},
+     "finds the first contact, to this fraction of the motion, or to metres: 0.001m (0.001; with "
+     "--poses 1e-6; 0: any contact)"},
     {"--first", PATH, OPTION_NUMBER, AT(first_to), 1e-9, 1e6, NULL, "S",
      "finds the first hit of a curve, or of motions together, to so many seconds (curves: any hit; "
      "together: 0.001)"},
@@ -177,7 +181,9 @@ static const manual svcd = {
     "'svcd --manual man' prints a man page, and 'svcd --manual bash', zsh or fish completions. "
     "A file may be -, standard input. Exit status: 0 done, 1 a file or a line was refused, 2 "
     "usage; for 'svcd sweep --exit-code' the answer. What it reads and prints: FORMATS.md, in "
-    "examples or share/doc/neuralsvcd. 'svcd-verify' (build/verify) checks its certificates.",
+    "examples or share/doc/neuralsvcd. 'svcd-verify' (build/verify) checks its certificates; 'cc "
+    "-O2 "
+    "examples/verify/verify.c -lm -o verify' makes it without make.",
     commands,
     sizeof commands / sizeof commands[0],
     options,

@@ -200,7 +200,7 @@ says inside_out 1 'wrong: inside out: its volume is -1 m3' '1 of these turned in
 says mm 1 'wrong: a body of 184 m: are these millimetres? try --scale 0.001'
 says two 0 'components: 2, 2 of them closed$' 'volume of what is closed: 2 m3'
 says cavity 0 'components: 2, 2 of them closed, 1 of these turned inwards' 'volume of what is closed: 63 m3'
-says degenerate 1 'wrong: 1 degenerate triangle:'
+says degenerate 1 'wrong: 1 degenerate triangle: no area, as of faces with corners in a line: harmless$'
 says fin 1 'wrong: 1 non-manifold edge:' 'components: 1, 1 of them closed'
 says turned 1 'wrong: 4 edges of inconsistent winding' 'components: 1, 1 of them closed'
 says flat 1 'wrong: flat' 'components: 1, 1 of them closed'
@@ -356,6 +356,14 @@ verdict '^hit at t = 0.0000' "$dir/cube.obj" "$dir/cube.obj" --from 0,0,1 --to 0
 # Faces that slide along each other at 30 um.
 verdict '^free' "$dir/cube.obj" "$dir/cube.obj" \
   --from -3,0,1.00003 --to 3,0,1.00003 --rotate z,30
+# Poses are metres, whatever the scale of files: what is never near is told, and nothing is where A comes near, or could.
+way() { verdict '^free' "$dir/mm.obj" "$dir/mm.obj" --scale 0.001 --from "$1" --to "$2"; }
+way 800,500,1500 800,500,0
+grep -q 'warning: A is never nearer than 942 m to B: are the poses in millimetres' "$dir/err" || fail "poses in mm: $(cat "$dir/err")"
+way 800,1,0 -800,1,0
+test ! -s "$dir/err" || fail "a way past B is warned of: $(cat "$dir/err")"
+way 0.8,0.5,1.5 0.8,0.5,0
+test ! -s "$dir/err" || fail "poses in metres are warned of: $(cat "$dir/err")"
 # By a table of poses: the same answer as by --from and --to; its own times, and lines; all contacts, each as a sweep of that
 # stretch says.
 printf '.25 .25 5\n.25 .25 -5\n' >"$dir/two.csv"
@@ -369,7 +377,30 @@ test "$(grep -c ^contact "$dir/out")" = 2 || fail "all contacts: $(cat "$dir/out
 verdict '^hit' "$dir/cube.obj" "$dir/cube.obj" --scale .5,1 --poses "$dir/table.csv" --all --picture "$dir/table.svg" --clearance .1
 expect 2 'needs --poses' build/svcd sweep "$dir/cube.obj" "$dir/cube.obj" --all
 expect 2 'not together with --from' build/svcd sweep "$dir/cube.obj" "$dir/cube.obj" --poses "$dir/table.csv" --to 0,0,0
-expect 2 'not of a table with times' build/svcd sweep "$dir/cube.obj" "$dir/cube.obj" --poses "$dir/table.csv" --certificate "$dir/x.cert"
+# B rests, so the proof of a table with times is one without them; a note of a line stands behind its contact.
+timed() {
+  verdict "^$1" "$dir/cube.obj" "$dir/cube.obj" --scale .5,1 --poses "$dir/timed.csv" --certificate "$dir/timed.cert"
+  line 'timed.txt, without times: B rests$'
+  expect 0 '' build/verify "$dir/timed.txt" "$dir"
+  line "^timed	accepted	$1	"
+}
+head -4 "$dir/table.csv" >"$dir/timed.csv"
+timed free
+printf '0,.25,.25,5\n1,.25,.25,4\n100,.25,.25,-5 # part.nc 7, down \r\n' >"$dir/timed.csv"
+timed hit
+verdict '^hit at t = 3[34][.0-9]* (after line 2)' "$dir/cube.obj" "$dir/cube.obj" --scale .5,1 --poses "$dir/timed.csv" --all
+line '^contact *lines 2 to 3, first at t = 3[34][.0-9]* (after line 2): .* m  # part.nc 7, down$'
+build/svcd sweep "$dir/cube.obj" "$dir/cube.obj" --scale .5,1 --poses "$dir/timed.csv" --all --json | grep -q '"note": *"part.nc 7, down"' ||
+  fail "a note in JSON"
+# The first contact is found in its stretch, of which 4,000 are shorter than a thousandth of the motion; drawn or not.
+awk 'BEGIN { for (i = 0; i <= 4000; i++) print 0.25, 0.25, 5 - i / 400 }' >"$dir/long.csv"
+for drawn in '' "--picture $dir/long.svg"; do
+  # shellcheck disable=SC2086
+  verdict '^hit at t = 0.40[0-9]* (after line 1600), the first' "$dir/cube.obj" "$dir/cube.obj" --scale .5,1 --poses "$dir/long.csv" --all $drawn
+  head -1 "$dir/out" >>"$dir/drawn"
+  line '^contact *lines 1600 to [0-9]*, first at t = 0.40[0-9]* (after line 1600): '
+done
+test "$(sort -u "$dir/drawn" | wc -l)" = 1 || fail "a picture changes the answer: $(cat "$dir/drawn")"
 # table REASON TEXT: refused.
 table() {
   printf "$2" >"$dir/bad.csv"
@@ -377,8 +408,9 @@ table() {
 }
 table 'bad.csv: no poses' 'x y z\n'
 table 'bad.csv:2: not a finite number' '0 0 0\n0 0 nan\n'
-table 'bad.csv:2: expected .t. x y z' '0 0 0\n0 0 0 1\n'
-table 'bad.csv:1: expected .t. x y z' '0 0\n'
+table 'bad.csv:2: expected 3 numbers, as in the lines before, not 4' '0 0 0\n0 0 0 1\n'
+table "bad.csv:1: not a finite number: 'nan'" '0,nan\n'
+table 'bad.csv:1: expected .t. x y z .*, not 2 numbers' '0 0\n'
 table 'bad.csv:3: times do not rise' '0 0 0 1\n1 0 0 1\n1 0 0 2\n'
 table 'line 2: its time is too near' '0 0 0 1\n1 0 0 1\n1e9 0 0 2\n'
 table 'bad.csv:1: the quaternion is not of unit length' '0 0 0 1 0 0 1\n'
@@ -397,9 +429,17 @@ awk -F '[ ,#]+' '
     exit_if(t < 24.97 || t > 25.01 || NR < 40); exit failed }' "$dir/way.csv" ||
   fail "gcode.py makes: $(cat "$dir/way.csv")"
 verdict '^hit at t = .* (after line [0-9]*), the first contact' "$dir/cube.obj" "$dir/cube.obj" --scale .001 --poses "$dir/way.csv"
-for bad in 'G28' 'G1 X1' 'G1 X1 A3 F1' 'G1 X#1 F1' 'G2 X1 F1' 'G2 X1 I9 F1' 'X1'; do
-  printf '%s\n' "$bad" | python3 examples/gcode.py - >/dev/null 2>"$dir/err" && fail "gcode.py takes: $bad"
-  grep -q 'gcode.py: line 1: ' "$dir/err" || fail "gcode.py says of $bad: $(cat "$dir/err")"
+printf 'G28\n' | python3 examples/gcode.py - 2>&1 | grep -q -e '--skip G28' || fail "gcode.py names no --skip G28"
+printf 'X1\n' | python3 examples/gcode.py - 2>&1 | grep -q 'line 1: a place before' || fail "gcode.py takes: X1"
+printf 'G0 X1\n' | python3 examples/gcode.py --start=-300,0,0 - | grep '^0, -0.3, 0, 0 ' >/dev/null || fail "gcode.py --start="
+awk 'BEGIN { for (i = 1; i < 20000; i++) print "G0 X" i % 2 }' >"$dir/way.nc"
+{ python3 examples/gcode.py "$dir/way.nc"; echo "status $?" >&2; } 2>"$dir/err" | head -1 >/dev/null
+grep -q 'Broken pipe' "$dir/err" && grep -qx 'status 1' "$dir/err" && ! grep -q 'Traceback\|Exception' "$dir/err" ||
+  fail "gcode.py of a broken pipe: $(cat "$dir/err")"
+for bad in 'G28' 'G1 X1 F0' 'G1 X1 A3 F1' 'G1 X#1 F1' 'G2 X1 F1' 'G2 X1 I9 F1'; do
+  printf 'G0 Z5\n%s\n' "$bad" | python3 examples/gcode.py - >"$dir/out" 2>"$dir/err" && fail "gcode.py takes: $bad"
+  test ! -s "$dir/out" || fail "gcode.py prints a part of a table: $bad"
+  grep -q 'gcode.py: line 2: ' "$dir/err" || fail "gcode.py says of $bad: $(cat "$dir/err")"
 done
 printf 'G28 Z9\nG1 X1 F1\n' | python3 examples/gcode.py - --skip G28 2>"$dir/err" | tail -1 | grep -q '^60, 0.001, 0, 0  # line 2$' || fail "gcode.py --skip"
 grep -q 'line 1 is skipped' "$dir/err" || fail "gcode.py --skip says: $(cat "$dir/err")"
@@ -449,7 +489,11 @@ verdict '^hit' "$dir/cube.obj" "$dir/two.obj" --scale 2.1,1
 verdict '^hit' "$dir/mm.obj" "$dir/cube.obj" --scale 0.001,1
 test ! -s "$dir/err" || fail "184 mm are warned of: $(cat "$dir/err")"
 verdict '^hit' "$dir/mm.obj" "$dir/cube.obj"
-grep -q 'warning: .*mm.obj: a body of 184 m' "$dir/err" || fail "no warning of 184 m: $(cat "$dir/err")"
+grep -q 'warning: .*mm.obj: a body of 184 m: .*--scale 0.001,1$' "$dir/err" || fail "no warning of 184 m: $(cat "$dir/err")"
+verdict '^hit' "$dir/cube.obj" "$dir/mm.obj" --scale 1,2
+grep -q 'warning: .*mm.obj: a body of 368 m: .*--scale 1,0.002$' "$dir/err" || fail "no warning of 368 m: $(cat "$dir/err")"
+verdict '^hit' "$dir/mm.obj" "$dir/mm.obj"
+test "$(grep -c 'mm.obj: a body of 184 m: .*--scale 0.001$' "$dir/err")" = 2 || fail "no warning of both: $(cat "$dir/err")"
 # What is not closed is told, of a body as well; and --open says that it is a sheet.
 sed '$d' "$dir/cube.obj" >"$dir/bin.obj"
 sed 's/^f 1 3 4 2/f 1 3 4/' "$dir/cube.obj" >"$dir/missing.obj"
@@ -541,6 +585,10 @@ expect 1 'none.obj: No such file' build/svcd sweep "$dir/cube.obj" "$dir/none.ob
 expect 1 "bad.obj:4: an index .*: 'f 1 2 4'" build/svcd sweep "$dir/bad.obj" "$dir/cube.obj"
 expect 1 'bad.body: this is not a body: .*damaged' build/svcd sweep "$dir/cube.obj" "$dir/bad.body"
 expect 2 'did you mean --from' build/svcd sweep "$dir/cube.obj" "$dir/cube.obj" --form 1,2,3
+expect 2 'clearance 5mm: expected metres, as 0.005$' build/svcd sweep "$dir/cube.obj" "$dir/cube.obj" --clearance 5mm
+expect 2 'first 5mm: expected metres, as 0.005m, or a fraction' build/svcd sweep "$dir/cube.obj" "$dir/cube.obj" --first 5mm
+expect 0 '' build/svcd sweep --help
+line 'whatever --scale says'
 expect 2 'did you mean --from' build/svcd sweep "$dir/cube.obj" "$dir/cube.obj" --form=1,2,3
 expect 2 'the length 2, not 1' build/svcd sweep "$dir/cube.obj" "$dir/cube.obj" --to 1,2,3,0,0,0,2
 # one tolerance, that of the library and of files
@@ -973,6 +1021,12 @@ grep -q '^low	refused	there is no certificate	' "$dir/out" || fail "no certifica
 expect 0 '' build/svcd check "$dir/proofs.txt" --certificates "$dir/certs" --clearance 0.02
 expect 0 '' build/verify "$dir/proofs.txt" "$dir/certs" --clearance 0.02
 expect 0 '' build/svcd sweep "$PWD/examples/assets/mug.obj" "$PWD/examples/assets/dish_rack.obj" --rotate z,100 --certificate "$dir/sweep.cert"
+expect 0 '' build/verify "$dir/sweep.txt" "$dir"
+cp "$dir/sweep.txt" "$dir/zero" && printf '\0' >>"$dir/zero"
+for wrong in '' "$dir/none.txt $dir" "$dir/sweep.cert $dir" "examples/assets/mug.obj $dir" "/dev/null $dir" "$dir/zero $dir"; do
+  # shellcheck disable=SC2086
+  expect 2 'FOLDER holds the proofs' build/verify $wrong
+done
 expect 0 '' build/verify "$dir/sweep.txt" "$dir"
 grep -q '^sweep	accepted	hit	' "$dir/out" || fail "a sweep's certificate: $(cat "$dir/out")"
 expect 2 'ends in .cert' build/svcd sweep a.obj b.obj --certificate x.txt

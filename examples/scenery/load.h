@@ -361,10 +361,7 @@ static int take_body(thing *t, float scale) {
 
 // Makes a thing of a file that has been read. Returns 0 after a complaint.
 static int take_thing(thing *t, float scale, const nsvcd_encode_options *options) {
-  const int good =
-      t->is_body ? take_body(t, scale) : take_mesh(t, scale) && encode_thing(t, options);
-  warn_of(t, t->grave);
-  return good;
+  return t->is_body ? take_body(t, scale) : take_mesh(t, scale) && encode_thing(t, options);
 }
 
 #endif

@@ -22,8 +22,9 @@
 #define MESH_LARGE_STL 3.0  // metres, for STL: its files are mostly in millimetres
 
 typedef struct mesh_report {
-  double scale;  // metres in one of the mesh's units
-  double large;  // metres: a body beyond this is hardly meant
+  double scale;        // metres in one of the mesh's units
+  double large;        // metres: a body beyond this is hardly meant
+  const char *advice;  // NULL, or a --scale to be advised in place of this one mesh's own
   size_t triangles, vertices;
   double low[3], high[3];  // metres: a box of the vertices that triangles use
   double area;             // square metres
@@ -215,16 +216,21 @@ MESH_DEF double mesh_extent(const mesh_report *report) {
 // metres: bodies beyond these are hardly meant
 #define MESH_SMALL 0.001
 
+// The scale by which the mesh is of a likely size: its own, if it is.
+MESH_DEF double mesh_likely_scale(const mesh_report *report) {
+  const double extent = mesh_extent(report);
+  return report->scale * (extent > report->large ? 0.001 : extent < MESH_SMALL ? 1000 : 1);
+}
 MESH_DEF int mesh_find_size(const mesh_report *report, char *line) {
   const double extent = mesh_extent(report);
-  const int large = extent > report->large;
-  if (large)
-    snprintf(line, MESH_LINE, "a body of %.4g m: are these millimetres? try --scale %g", extent,
-             report->scale / 1000);
-  else if (extent < MESH_SMALL)
-    snprintf(line, MESH_LINE, "a body of %.4g m: is it too small by a thousand? try --scale %g",
-             extent, report->scale * 1000);
-  return large || extent < MESH_SMALL;
+  const double likely = mesh_likely_scale(report);
+  char own[32];
+  snprintf(own, sizeof own, "%g", likely);
+  if (likely != report->scale)
+    snprintf(line, MESH_LINE, "a body of %.4g m: %s? try --scale %s", extent,
+             likely < report->scale ? "are these millimetres" : "is it too small by a thousand",
+             report->advice ? report->advice : own);
+  return likely != report->scale;
 }
 // Is the mesh so far from its origin that floats are a millimetre apart or more there?
 MESH_DEF int mesh_find_far(const mesh_report *report, char *line) {
@@ -301,7 +307,7 @@ MESH_DEF int mesh_findings(const mesh_report *report, char lines[MESH_FINDINGS][
   count += mesh_find_count(report->crowded_edges, "non-manifold edge", "non-manifold edges",
                            "more than two triangles meet there", lines[count]);
   count += mesh_find_count(report->flat, "degenerate triangle", "degenerate triangles",
-                           "no area; harmless, but better left out", lines[count]);
+                           "no area, as of faces with corners in a line: harmless", lines[count]);
   return count;
 }
 

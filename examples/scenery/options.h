@@ -111,7 +111,13 @@ static int refuse_value(const option *o, const char *value) {
   const char *limit = o->text ? o->text : "";
   snprintf(words, sizeof words, "%s", limit);
   for (char *c = words; *c; c++) *c = *c == '|' ? ' ' : *c;
-  if (o->kind == OPTION_WORD)
+  char *unit;
+  strtod(value, &unit);
+  const int is_other = unit != value && *unit && strcmp(unit, o->kind == OPTION_LENGTH ? "m" : "");
+  if (is_other && o->value && strstr(o->value, "METRES"))
+    complain("%s %s: expected metres, as 0.005%s", o->name, value,
+             o->kind == OPTION_LENGTH ? "m, or a fraction of the motion, as 0.001" : "");
+  else if (o->kind == OPTION_WORD)
     complain("%s %s: none of: %s", o->name, value, words);
   else
     complain("%s %s: out of range: not a %s in %.9g..%.9g%s%s%s", o->name, value,

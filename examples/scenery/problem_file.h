@@ -96,6 +96,7 @@ typedef struct reader {
   size_t line;  // number of the line that the fields are of, from 1
   char *fields[MOST_FIELDS];
   size_t field_count;  // may exceed MOST_FIELDS: then those beyond are not kept
+  char *note;          // what stands behind a #, or ""
 } reader;
 
 // Splits the next line that is not empty into fields. 0 at the end of the file.
@@ -105,7 +106,8 @@ static int next_line(reader *r) {
     char *end = line + strcspn(line, "\n");
     r->next = *end ? end + 1 : end;
     *end = 0;
-    line[strcspn(line, "#")] = 0;
+    r->note = line + strcspn(line, "#");
+    if (*r->note) *r->note++ = 0;
     r->line++;
     r->field_count = 0;
     for (char *field = strtok(line, " \t\r"); field;

@@ -16,6 +16,8 @@ typedef struct motion {
   size_t count;
   double *times;  // (count) of a table that has times, as it says them
   size_t *lines;  // (count) of the table
+  char **notes;   // (count) what stands behind a # there, or ""
+  char *text;     // of which these are
   int is_timed;   // the table has times
   int through;    // the axis along which A passes through B; -1: as it was told
   int turn;       // the axis about which it turns
@@ -164,14 +166,15 @@ static double uniform_share(const motion *m, double share) {
   return ((double)i + (share - begins) / lasts) / (double)(m->count - 1);
 }
 
-// "t = 0.4"; of a table "t = 0.4 (after line 12)", in its own times if it has them.
-static void shown_time(const motion *m, double share, char *out, size_t size) {
+// "t = 0.4"; of a table "t = 0.4 (after line 12)", in its own times if it has them: that line which
+// the share `begins` is after.
+static void shown_time(const motion *m, double share, double begins, char *out, size_t size) {
   const double first = m->is_timed ? m->times[0] : 0;
   const double all = m->is_timed ? m->times[m->count - 1] - first : 1;
   const int n = m->is_timed ? snprintf(out, size, "t = %.6g", first + share * all)
-                            : snprintf(out, size, "t = %.4f", share);
+                            : snprintf(out, size, m->lines ? "t = %.6f" : "t = %.4f", share);
   if (m->lines && n > 0 && (size_t)n < size)
-    snprintf(out + n, size - (size_t)n, " (after line %zu)", m->lines[pose_before(m, share)]);
+    snprintf(out + n, size - (size_t)n, " (after line %zu)", m->lines[pose_before(m, begins)]);
 }
 
 static void print_motion(const motion *m) {

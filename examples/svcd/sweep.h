@@ -2,7 +2,10 @@
 #ifndef NSVCD_SVCD_SWEEP_H
 #define NSVCD_SVCD_SWEEP_H
 
-#include "settings.h"
+#include "sweep_warnings.h"
+
+#define FIRST 0.001f          // the first contact, to this fraction of a motion
+#define FIRST_OF_TABLE 1e-6f  // and of one by a table, to name the line
 
 typedef struct sweep_job {
   thing a, b;  // a moves
@@ -173,14 +176,17 @@ static void sweep_verdict(const sweep_job *job, const settings *options, char *o
   char low[60], at[60];
   char near_by[60] = "";
   char reason[120];
-  shown_time(&job->motion, (double)a->time.low, low, sizeof low);
-  shown_time(&job->motion, (double)(collides ? contact_time_of(a) : 0), at, sizeof at);
+  const double until = (double)a->time.low;
+  const double met = (double)(collides ? contact_time_of(a) : 0);
+  shown_time(&job->motion, until, until, low, sizeof low);
+  // contact at a pose is one on the way there, as --all has it
+  shown_time(&job->motion, met, fmax(until, met - 2 * (double)FIRST_OF_TABLE), at, sizeof at);
   if (collides)
     snprintf(when, sizeof when, " at %s, %s", at,
              wants_first(options) || !(contact_time_of(a) > 0) ? "the first contact"
                                                                : "perhaps not the first contact");
   if (hides_first(a)) {
-    shown_time(&job->motion, (double)a->time.high, at, sizeof at);
+    shown_time(&job->motion, (double)a->time.high, (double)a->time.high, at, sizeof at);
     snprintf(when, sizeof when, " at %s, and not before %s", at, low);
   }
   if (a->verdict == NSVCD_UNDECIDED) {
@@ -218,8 +224,8 @@ static void print_answer(const sweep_job *job, const settings *options) {
     printf("triangles  %lu of A, %lu of B, counted from 0\n",
            (unsigned long)a->contacts[0].triangle_a, (unsigned long)a->contacts[0].triangle_b);
   }
-  if (job->nearest.distance.high > 0)
-    shown_time(&job->motion, (double)job->nearest.nearest.time, when, sizeof when);
+  const double nearest = (double)job->nearest.nearest.time;
+  if (job->nearest.distance.high > 0) shown_time(&job->motion, nearest, nearest, when, sizeof when);
   if (job->nearest.distance.high > 0)
     printf("clearance  %.4g to %.4g m, at %s\n", (double)job->nearest.distance.low,
            (double)job->nearest.distance.high, when);
@@ -251,8 +257,9 @@ static void tell_stretches(const sweep_job *job, json_out *json, size_t from, si
   const double begins = share_of_pose(m, from);
   const double lasts = m->count > 1 ? share_of_pose(m, from + 1) - begins : 0;
   const double share = begins + lasts * (is_hit ? (double)contact_time_of(first) : 0);
+  const char *note = m->notes[m->count > 1 ? from + 1 : from];
   char when[60];
-  shown_time(m, share, when, sizeof when);
+  shown_time(m, share, begins, when, sizeof when);
   if (json) {
     json_open(json, NULL, '{');
     json_text(json, "verdict", nsvcd_verdict_string(first->verdict));
@@ -260,6 +267,7 @@ static void tell_stretches(const sweep_job *job, json_out *json, size_t from, si
     json_count(json, "to_line", m->lines[last]);
     json_float(json, "time", share);
     if (is_hit) json_floats(json, "point", first->nearest.point, 3);
+    if (*note) json_text(json, "note", note);
     json_close(json, '}');
     return;
   }
@@ -268,7 +276,7 @@ static void tell_stretches(const sweep_job *job, json_out *json, size_t from, si
   if (is_hit)
     printf(", first at %s: %.5g %.5g %.5g m", when, (double)first->nearest.point[0],
            (double)first->nearest.point[1], (double)first->nearest.point[2]);
-  printf("\n");
+  printf("%s%s\n", *note ? "  # " : "", note);
 }
 
 // Asks about each stretch between two poses by itself, and tells those with a contact: neighbours
@@ -283,6 +291,7 @@ static int sweep_all(sweep_job *job, const settings *options, json_out *json) {
   memset(&first, 0, sizeof first);
   sweep_begin(job, options, job->poses, m->count > 1 ? 2 : 1);
   ask_first(&job->question, options);
+  if (!options->is_first_given) job->question.to_time = FIRST;
   if (json) json_open(json, "all", '[');
   for (size_t i = 0; i <= stretches; i++) {
     nsvcd_answer now;
@@ -368,6 +377,27 @@ static int print_json(sweep_job *job, const settings *options) {
   return 1;
 }
 
+// Writes the proof of the answer. Of a table with times it is one without them: B rests, so that they
+// change when something is, not what; asked again, since a contact is where the proof says.
+// Returns 0 after a complaint.
+static int sweep_prove(sweep_job *job, const settings *options, const float *scales) {
+  nsvcd_answer answer = job->answer;
+  if (job->times) {
+    sweep_begin(job, options, job->poses, job->motion.count);
+    if (wants_first(options)) ask_first(&job->question, options);
+    job->wait = wait_for(options);
+    if (!sweep_decided(job, options->sweep.work, &answer)) return 0;
+  }
+  if (!write_proof(options->certificate, options->paths, scales, job->poses, job->motion.count,
+                   options->sweep.clearance, options->visits, &answer))
+    return 0;
+  if (!options->json)
+    printf("certificate  %s, of the problem in %.*stxt%s\n", options->certificate,
+           (int)strlen(options->certificate) - 4, options->certificate,
+           job->times ? ", without times: B rests" : "");
+  return 1;
+}
+
 // ------------------------------------------------------------------------------------- its picture
 
 // Makes what is drawn of a thing: its mesh, or, of a .body file, the balls of its patches. Returns
@@ -428,22 +458,6 @@ static int draw_job(const sweep_job *job, const settings *options) {
   return good;
 }
 
-// Warns if one thing may be in millimetres and the other not; a body file is always in metres.
-static void warn_of_sizes(const sweep_job *job, const float *scales) {
-  const thing *t[2] = {&job->a, &job->b};
-  double extents[2];
-  for (int i = 0; i < 2; i++) {
-    extents[i] = 0;
-    for (int k = 0; k < 3; k++) extents[i] = fmax(extents[i], t[i]->high[k] - t[i]->low[k]);
-  }
-  const int large = extents[1] > extents[0];
-  const double times = extents[large] / extents[!large];
-  if (times < 1000 || t[large]->is_body || t[large]->grave) return;
-  complain("warning: %s is %.0f times as large as %s: is it in millimetres? try --scale %g,%g",
-           t[large]->path, times, t[!large]->path, (double)scales[0] * (large ? 1 : 0.001),
-           (double)scales[1] * (large ? 0.001 : 1));
-}
-
 static int sweep_run(sweep_job *job, settings *options, const float *scales) {
   motion_told told = {options->from, options->to, options->rotate, options->poses, {0, 0, 0}};
   if (!open_thing(options->paths[0], &job->a) || !open_thing(options->paths[1], &job->b))
@@ -458,14 +472,13 @@ static int sweep_run(sweep_job *job, settings *options, const float *scales) {
   if (!take_thing(&job->a, scales[0], &options->encode) ||
       !take_thing(&job->b, scales[1], &options->encode))
     return REFUSED;
-  warn_of_sizes(job, scales);
+  warn_of_things(&job->a, &job->b, scales);
   for (int k = 0; k < 3; k++)
     told.shift[k] = (double)scales[0] * job->a.origin[k] - (double)scales[1] * job->b.origin[k];
   job->motion.poses = (oracle_pose *)allocate(NSVCD_MAX_POSES * sizeof *job->motion.poses);
   if (!take_motion(&told, &job->a, &job->b, &job->motion)) return told.poses ? REFUSED : USAGE;
   if (!sweep_round(job)) return REFUSED;
-  if (options->certificate && job->times)
-    return usage_error("--certificate", "not of a table with times");
+  warn_of_way(&job->a, &job->b, &job->motion);
   const int status = sweep_method(job, options);
   if (status != DONE) return status;
   if (!sweep_ask(job, options)) return REFUSED;
@@ -473,14 +486,7 @@ static int sweep_run(sweep_job *job, settings *options, const float *scales) {
   if (!options->json) print_answer(job, options);
   if (!options->json && options->all && !sweep_all(job, options, NULL)) return REFUSED;
   options->answer = job->answer.verdict == NSVCD_UNDECIDED ? 3 : job->answer.verdict == NSVCD_HIT;
-  if (options->certificate) {
-    if (!write_proof(options->certificate, options->paths, scales, job->poses, job->motion.count,
-                     options->sweep.clearance, options->visits, &job->answer))
-      return REFUSED;
-    if (!options->json)
-      printf("certificate  %s, of the problem in %.*stxt\n", options->certificate,
-             (int)strlen(options->certificate) - 4, options->certificate);
-  }
+  if (options->certificate && !sweep_prove(job, options, scales)) return REFUSED;
   return !options->picture || draw_job(job, options) ? DONE : REFUSED;
 }
 
@@ -494,7 +500,7 @@ static int sweep(settings *options) {
   if (options->poses && (options->from || options->to || options->rotate))
     return usage_error("--poses", "not together with --from, --to or --rotate");
   if (options->all && !options->poses) return usage_error("--all", "needs --poses");
-  if (!options->is_first_given) options->first[0] = 0.001f;
+  if (!options->is_first_given) options->first[0] = options->poses ? FIRST_OF_TABLE : FIRST;
   if (options->picture && !ends_with(options->picture, ".svg"))
     return complain("--picture: %s does not end in .svg", options->picture), USAGE;
   if (options->certificate && (!ends_with(options->certificate, ".cert") ||
@@ -516,6 +522,8 @@ static int sweep(settings *options) {
   free(job->motion.poses);
   free(job->motion.times);
   free(job->motion.lines);
+  free(job->motion.notes);
+  free(job->motion.text);
   free(job->poses);
   free(job->times);
   free(job->workspace);

@@ -133,6 +133,17 @@ static int check_problems(const char *path, char *text, request *asked) {
   return all;
 }
 
+static int explain(void) {
+  fprintf(stderr,
+          "verify [--pairs] FILE.txt FOLDER [--clearance METRES] [--only ID,ID] [--claims]\n"
+          "FILE.txt says what is proven: svcd sweep writes OUT.txt beside its certificate, "
+          "OUT.cert; or "
+          "it is the file that svcd check or svcd plan read.\n"
+          "FOLDER holds the proofs, ID.cert: of OUT.txt the one where OUT.cert is, as in 'verify "
+          "OUT.txt .'.\n");
+  return 2;
+}
+
 int main(int argc, char **argv) {
   const int pairs = argc > 1 && strcmp(argv[1], "--pairs") == 0;
   argc -= pairs;
@@ -153,22 +164,24 @@ int main(int argc, char **argv) {
     if (known && is_only) asked.only = argv[++i];
     if (known && is_clearance) asked.clearance = (float)number_of("--clearance", argv[++i]);
   }
-  if (!known) {
-    fprintf(stderr,
-            "verify [--pairs] FILE.txt FOLDER [--clearance METRES] [--only ID,ID] [--claims]\n");
-    return 2;
-  }
+  if (!known) return explain();
   const char *path = argv[1];
   char *words[MOST_WORDS];
   size_t size;
   char *text = read_file(path, &size);
-  if (!text) fail(path, strerror(errno));
-  no_zero(path, text, size);
+  if (!text) {
+    fprintf(stderr, "verify: %s: %s\n", path, strerror(errno));
+    return explain();
+  }
   char *next = text;
-  expect(path, &next, words, 2);
-  const int is_plans = strcmp(words[0], "nsvcd-plans") == 0;
-  if (!is_plans && (pairs || strcmp(words[0], "nsvcd-problems") != 0))
-    fail(path, pairs ? "it is no planning file" : "its first line is not nsvcd-problems 1");
+  const int is_text =
+      !memchr(text, 0, size) && strlen(text) == size && next_words(&next, words, MOST_WORDS) >= 2;
+  const int is_plans = is_text && strcmp(words[0], "nsvcd-plans") == 0;
+  if (!is_text || (!is_plans && (pairs || strcmp(words[0], "nsvcd-problems") != 0))) {
+    fprintf(stderr, "verify: %s: its first line is not %s\n", path,
+            pairs ? "nsvcd-plans 1" : "nsvcd-problems 1 or nsvcd-plans 1");
+    return explain();
+  }
   if (strcmp(words[1], "1") != 0) fail(path, "only version 1 is known");
   int all = 0;
   if (is_plans) all = check_plans(path, next, &asked, &r);
