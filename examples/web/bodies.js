@@ -13,6 +13,7 @@ function showBody(which) {
   const offer = unitsOffer(which);
   part('.units').hidden = !offer;
   part('.units').textContent = offer?.[1] ?? '';
+  showLanguages();
 }
 
 function notify(text) {
@@ -36,13 +37,15 @@ async function showFindings(which) {
   await painted();
   list.replaceChildren(...library.findings(which).map((line) => {
     const item = document.createElement('li');
-    item.textContent = line.split('; try --')[0];  // options of `svcd`, which a page has none of
+    item.textContent = line.split(/;? try --| \(say --/)[0];  // options of `svcd`, which a page has none of
     return item;
   }));
 }
 
 // What is wrong with a file, and where.
 function faultOf(name, bytes, error) {
+  if (!/\.(obj|stl|ply|glb)$/i.test(name))
+    return `${name}: it is none of OBJ, STL, PLY and GLB, the formats that are read`;
   if (!error.line)
     return `${name}: ${error.message}`;
   const line = new TextDecoder().decode(bytes).split('\n')[error.line - 1] ?? '';
@@ -56,6 +59,8 @@ async function loadFile(which, file) {
   await new Promise((drawn) => requestAnimationFrame(() => setTimeout(drawn)));
   let fault = '';
   try {
+    if (!bytes.length)
+      throw new Error('the file is empty');
     loadBody(which, file.name, bytes);
     Object.assign(bodies[which], {scale: 1, dropped: true});
     refit();

@@ -44,6 +44,7 @@ function frame() {
     ask(1, 3);
     proofFiles = null;
     showProof('Not while it moves');
+    showCopied('');
     clearTimeout(settled);
     settled = setTimeout(() => {
       showProof(prove());
@@ -71,6 +72,7 @@ function changed(isQuestion) {
   waiting = true;
 }
 function motionChanged() {
+  show('pose-error', '');
   motion.forEach(({position, rotation}, i) => {
     find(`pose-${i}`).value = [...position, ...rotation].map((x) => +x.toFixed(6)).join(' ');
   });

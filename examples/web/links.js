@@ -15,7 +15,7 @@ function openScene(name) {
     Object.assign(bodies[which], {scale: scales[which], dropped: false, unsure: false});
     find(`drop-${which}`).querySelector('.error').textContent = '';
   });
-  show('copied', '');
+  showCopied('');
   if (files)
     bodies.forEach((_, which) => showBody(which));
   for (const link of document.querySelectorAll('#gallery a'))

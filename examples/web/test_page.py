@@ -476,6 +476,10 @@ class Page(Hands):
         self.assertIn("not of unit length", self.text("pose-error"))
         self.set("pose-1", "1 2 3", "change")
         self.assertIn("seven numbers", self.text("pose-error"))
+        self.set("pose-1", "0 0 0.3 0 0 zero 1", "change")
+        self.assertIn("“zero” is not a number", self.text("pose-error"))
+        self.click("#reset-motion")
+        self.assertEqual(self.text("pose-error"), "")
         self.set("pose-0", before[0], "change")
         self.assertEqual(self.text("pose-error"), "", "the end is what it was")
         self.assert_native(native([before], "--first", "0.01")[0])
@@ -521,7 +525,7 @@ class Page(Hands):
         size = (folder / "proof.cert").stat().st_size
         self.assertEqual(self.text("save"), f"Save the proof, {size} bytes")
         command = (folder / "proof.txt").read_text().split("\n")[0].split("#")[1].split()
-        self.assertEqual(command[:3], ["build/verify", "proof.txt", "."])
+        self.assertEqual(command[:3], ["build/verify", "proof/proof.txt", "proof"])
         return command[3:]
 
     def test_proofs(self):
@@ -550,7 +554,7 @@ class Page(Hands):
         open_cube = cube(0.5).rstrip("\n").rsplit(" ", 1)[0] + "\n"
         self.drop(0, [["small.obj", cube(0.1)], ["open.obj", open_cube]])
         self.set_poses("0 0 0 0 0 0 1", "0.1 0 0 0 0 0 1")
-        self.until(lambda: "proven" in self.find("save").get_attribute("title"))
+        self.until(lambda: "proven" in self.text("why"))
         self.assertFalse(self.find("save").is_enabled())
 
     def test_wrong_files(self):
@@ -559,7 +563,7 @@ class Page(Hands):
             "v 0 0 0\nv 1 0 0\nf 1 2\n": "wrong.obj, line 3: a line cannot be understood",
             "v 0 0 0\nv 1 0 0\nv 0 1 0\n\nf 1 2 9\n": "wrong.obj, line 5: an index is zero or refers to no vertex",
             "v 0 0 zero\n" + CUBE_FACES: "wrong.obj, line 1: a line cannot be understood",
-            "": "wrong.obj: there is no triangle",
+            "": "wrong.obj: the file is empty",
             "\u0000\u0001PNG": "wrong.obj",
         }
         for text, message in wrong.items():
@@ -690,8 +694,9 @@ class Page(Hands):
         """What is copied for a terminal, for Python and for C says what the page says."""
         def copied(language: str) -> str:
             self.click(f"#copies [value={language}]")
-            self.until(lambda: self.find("copied").get_attribute("data-text"))
-            return self.find("copied").get_attribute("data-text")
+            self.until(lambda: "opied" in self.text("copied"))
+            self.assertIn("the folder of the repository", self.text("copied"))
+            return self.find("copied-text").get_attribute("textContent")
 
         root = Path(__file__).resolve().parents[2]
         shown = float(self.text("contact-time").split()[-1])
@@ -717,6 +722,28 @@ class Page(Hands):
                                      env={**os.environ, "PYTHONPATH": str(root / "examples/python")})
                 self.assertEqual(out.stdout.split()[:1], [verdict], out)
 
+    def test_what_is_copied_is_told_truly(self):
+        """Whose the files are, that the browser has refused, and that C does not read all formats."""
+        files = formats(0.1)
+        self.drop(0, [["my cube.stl", files["cube.stl"]]])
+        self.browser.execute_script("navigator.clipboard.writeText = () => Promise.reject(new Error('no'))")
+        self.click("#copies [value=C]")
+        self.until(lambda: self.text("copied"))
+        for words in ("did not let", "my cube.stl (yours)", "examples/assets/dish_rack.obj (the repository)"):
+            self.assertIn(words, self.text("copied"))
+        self.assertIn("nsvcd_mesh_load", self.text("copied-text"))
+        self.click("#copy")
+        self.assertIn("did not let", self.text("notice"))
+        self.assertIn("no files: who opens it has to drop my cube.stl", self.text("notice"))
+        self.browser.execute_script("navigator.clipboard.writeText = () => Promise.resolve()")
+        self.click("#copies [value=svcd]")
+        self.until(lambda: self.text("copied").startswith("Copied, for a folder with"))
+        self.set_poses(*HIGH)
+        self.assertEqual(self.text("copied") + self.text("copied-text"), "", "it is of another motion")
+        self.drop(0, [["cube.ply", files["cube.ply"]]])
+        self.assertFalse(self.browser.find_element(By.CSS_SELECTOR, "#copies [value=C]").is_enabled())
+        self.assertIn("not PLY", self.text("no-c"))
+
     def test_findings_are_those_of_info(self):
         lines = cube(0.1).splitlines()
         bad = {"open.obj": "\n".join(lines[:-1]) + "\n",
@@ -728,7 +755,8 @@ class Page(Hands):
                 path = Path(folder) / name
                 path.write_text(text)
                 out = subprocess.run([SVCD, "info", path], capture_output=True, text=True).stdout
-                expected = [line.split(": ", 1)[1] for line in out.splitlines() if line.startswith("wrong: ")]
+                expected = [re.sub(r" \(say --.*", "", line.split(": ", 1)[1])  # options of svcd, which a page has none of
+                            for line in out.splitlines() if line.startswith("wrong: ")]
                 self.drop(0, [[name, text]])
                 shown = [item.text for item in self.part(0, "findings").find_elements(By.TAG_NAME, "li")]
                 self.assertEqual(shown, expected)
@@ -770,6 +798,8 @@ class Page(Hands):
         self.until(lambda: saved.exists() and saved.stat().st_size > 0)  # it is made empty first
         with tarfile.open(folder / "proof.tar") as tar:
             tar.extractall(folder)
+        for file in (folder / "proof").iterdir():
+            file.rename(folder / file.name)
 
     def assert_arm_accepted(self, folder: Path):
         self.save_files(folder)
@@ -815,7 +845,7 @@ class Page(Hands):
                     self.assert_arm_accepted(folder / f"bent-{n}")
                     self.assertNotEqual((folder / f"bent-{n}" / "up.cert").read_bytes(), data)
                 else:
-                    self.until(lambda: "Only a motion that is free" in self.find("save").get_attribute("title"))
+                    self.until(lambda: "Only a motion that is free" in self.text("why"))
                     self.assertFalse(self.find("save").is_enabled())
                     self.assertTrue(self.find("contact").is_displayed() or "inside" in self.text("verdict-text"))
         self.assertEqual(seen, {"Free", "Hit"})
