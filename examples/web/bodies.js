@@ -80,15 +80,20 @@ async function loadFiles(which, files) {
     openScene('mug');
   const faults = list.length > 2 ? ['Of more than two files the first two are taken'] : [];
   for (const [i, file] of list.slice(0, 2).entries()) {
-    const at = list.length === 1 ? which : i;
+    const named = wanted?.files.indexOf(file.name) ?? -1;
+    const at = named >= 0 ? named : list.length === 1 ? which : i;
     faults.push(await loadFile(at, file));
     bodies[at].unsure = faults.at(-1) === '' && unitsOffer(at) !== null;
   }
   bodies.forEach((body, i) => body.unsure &&= unitsOffer(i) !== null);  // beside the other one
+  if (isWanted())
+    try {
+      applyLink(wanted);
+    } catch (error) {
+      faults.push(`The link's motion is not taken: ${error.message}`);
+    }
   changed(true);
   bodies.forEach((_, i) => showBody(i));
-  if (bodies.some(({dropped}) => dropped))
-    show('note', `${bodies[0].name} moves, ${bodies[1].name} rests.`);
   notify(faults.filter((fault) => fault).join('. '));
 }
 

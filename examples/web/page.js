@@ -28,11 +28,14 @@ function listen() {
   }, {passive: false});
   find('play').addEventListener('click', play);
   find('time').addEventListener('input', () => {
-    stopPlaying();
+    stopPlaying(false);
     find('follow').checked = false;
     changed(false);
   });
-  find('follow').addEventListener('input', () => changed(false));
+  find('follow').addEventListener('input', () => {
+    stopPlaying(false);
+    changed(false);
+  });
   find('reset-view').addEventListener('click', resetView);
   find('reset-motion').addEventListener('click', resetMotion);
   find('save').addEventListener('click', save);
