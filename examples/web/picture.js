@@ -19,7 +19,7 @@ const camera = () => cameraOf(view, canvas.clientWidth, canvas.clientHeight);
 // A's colour at a time: green as far as it is proven free.
 function colourAt(t) {
   const proven = answer && !isOpinion(answer) && t < answer.time.low;
-  if (isAny(answer) && t < answer.time.high)  // nothing is known of it
+  if (isAny(answer) && t < answer.time.high - 0.001)  // nothing is known of it; the slider's step
     return colours['body-b'];
   return proven ? colours.free : colours[answer?.description[0] ?? 'doubt'];
 }

@@ -31,7 +31,7 @@ function objFile({format, file, positions, indices}) {
 
 function proveArm() {
   if (answer.verdict !== VERDICT.FREE)
-    return 'Only a motion that is free can be saved with its proof';
+    return 'Only a free motion has a proof to save';
   try {
     proofFiles = robot.prove();
   } catch (error) {

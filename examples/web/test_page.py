@@ -870,7 +870,7 @@ class Page(Hands):
                     self.assert_arm_accepted(folder / f"bent-{n}")
                     self.assertNotEqual((folder / f"bent-{n}" / "up.cert").read_bytes(), data)
                 else:
-                    self.until(lambda: "Only a motion that is free" in self.text("why"))
+                    self.until(lambda: "Only a free motion" in self.text("why"))
                     self.assertFalse(self.find("save").is_enabled())
                     self.assertTrue(self.find("contact").is_displayed() or "inside" in self.text("verdict-text"))
         self.assertEqual(seen, {"Free", "Hit"})
