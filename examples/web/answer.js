@@ -32,7 +32,7 @@ function showAnswer() {
   show('point', nearest ? numbers(nearest.point, 3) : null);
   show('normal', nearest ? numbers(nearest.normal, 2) : null);
   for (const which of [0, 1]) {
-    show(`triangle-${which}`, nearest ? nearest.triangles[which] : null);
+    show(`triangle-${which}`, nearest ? `${isArm() ? 'triangle ' : ''}${nearest.triangles[which]}` : null);
     show(`side-${which}`, isArm() ? nearest && nameOf(answer.pair[which]) : 'AB'[which]);
   }
   // A robot's: its rows stay where they are, or its sliders would jump.

@@ -60,8 +60,9 @@ function folderOf(bodies) {
   const [mine, other] = bodies.map(pathOf);
   if (a !== b)
     return `a folder with ${mine} (${a}) and ${other} (${b})`;
-  return a === 'yours' ? 'the folder of your files' : a === 'the repository' ? 'the folder of the repository' :
-    'the folder of a.obj and b.obj: save the proof first';
+  if (a === 'yours')
+    return 'the folder of your files';
+  return a === 'the repository' ? `the folder of ${a}` : 'the folder of a.obj and b.obj: save the proof first';
 }
 
 // Says something below the buttons, and shows a text there that can be selected; until the motion changes.

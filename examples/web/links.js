@@ -116,7 +116,8 @@ function readLink(hash) {
   for (const pose of poses)
     if (pose && Math.abs(Math.hypot(...pose.slice(3)) - 1) > 1e-4)
       refuse('a rotation is no quaternion of length 1');
-  return {name, method, poses, files: ['a', 'b'].map((key) => words.get(key)), bend: read('bend', 6, -60, 60), scales: read('scales', 2, 1e-6, 1e6),
+  return {name, method, poses, files: ['a', 'b'].map((key) => words.get(key)),
+    bend: read('bend', 6, -60, 60), scales: read('scales', 2, 1e-6, 1e6),
     first: read('first', 1, 0, 1) ?? [1], clearance: read('clearance', 1, 0, 1e6) ?? [0]};
 }
 
@@ -131,7 +132,8 @@ function openLink(hash) {
   wanted = files ? link : null;
   if (!wanted)
     return applyLink(link);
-  notify(`This link was made with ${files}, and no link holds a file: drop it again, and its motion follows.`);
+  notify(`This link was made with ${files}, and no link holds a file: drop it again, and its motion ` +
+    'follows.');
 }
 function applyLink({method, poses, bend, scales, first, clearance}) {
   find('first').checked = first[0] === 1;

@@ -117,7 +117,8 @@ function describe(answer, {method, clearance, first}) {
 // Is it that the network thinks so, and no more?
 const isOpinion = (answer) => answer?.by === BY.NETWORK && !answer.inside;
 // Is it a hit that something earlier may precede?
-const isAny = (answer) => answer?.verdict === VERDICT.HIT && answer.by === BY.PROOF && !answer.inside && !answer.first;
+const isAny = (answer) =>
+  answer?.verdict === VERDICT.HIT && answer.by === BY.PROOF && !answer.inside && !answer.first;
 // Are there two triangles that prove a hit?
 const isWitnessed = (answer) =>
   answer?.verdict === VERDICT.HIT && answer.by === BY.PROOF && !answer.inside;

@@ -49,6 +49,7 @@ function showSummary() {
   const {missed, alarms, time} = answer(setting);
   const said = document.createElement('b');
   said.textContent = of(missed.length, 'hits');
+  said.className = missed.length ? '' : 'none';
   const verb = samples ? 'miss' : 'misses';
   // Nothing is missed, but at a price: that is no lesser half.
   const alarmed = document.createElement('b');
