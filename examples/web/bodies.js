@@ -89,7 +89,9 @@ async function loadFiles(which, files) {
   if (isWanted())
     try {
       applyLink(wanted);
+      wanted = null;
     } catch (error) {
+      resetMotion();
       faults.push(`The link's motion is not taken: ${error.message}`);
     }
   changed(true);

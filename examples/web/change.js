@@ -58,7 +58,7 @@ function frame() {
       showProof(prove());
       writeLink();
       closest = measure();
-      settle(isArm() ? 0 : 3);
+      settle(isArm() ? 1 : 3);
       say();
       changed(false);
     }, 250);
