@@ -5,7 +5,8 @@ function show(id, text) {
   find(id).textContent = text ?? '–';
 }
 function showTime(us) {
-  show('microseconds', us === null ? null : `${us < 10 ? us.toFixed(1) : us.toFixed(0)} µs`);
+  show('microseconds', us === null ? null : us > 1000 ? `${(us / 1000).toPrecision(3)} ms` :
+    `${us < 10 ? us.toFixed(1) : us.toFixed(0)} µs`);
 }
 function showVerdict(kind, title, text) {
   find('verdict').dataset.kind = kind;
@@ -20,19 +21,26 @@ function showAnswer() {
     showVerdict(...answer.description);
   showTime(answer && answer.microseconds);
   const nearest = shownContact();
-  show('contact-name', answer?.verdict === VERDICT.FREE && !isArm() ? 'nearest at' : 'contact at');
+  show('contact-name', answer?.verdict === VERDICT.FREE && !isArm() ? 'nearest at' :
+    isOpinion(answer) ? 'guessed at' : isAny(answer) ? 'a contact at' : 'contact at');
   show('contact-time', timed ? `t = ${contactTime(answer).toFixed(3)}` :
     nearest ? `t = ${nearest.time.toFixed(3)}` : null);
-  // Of a robot's hit it is not told whether it is the first.
-  show('free-until', known && !(isArm() && timed) ? `t = ${answer.time.low.toFixed(3)}` : null);
+  show('free-until', known && !isAny(answer) ? `t = ${answer.time.low.toFixed(3)}` : null);
   const apart = (closest ?? answer)?.distance.low;
   show('apart', known && apart > 0 && Number.isFinite(apart) ?
     `${+(1000 * apart).toPrecision(closest ? 4 : 2)} mm` : null);
   show('point', nearest ? numbers(nearest.point, 3) : null);
   show('normal', nearest ? numbers(nearest.normal, 2) : null);
-  for (const which of [0, 1])
-    show(`triangle-${which}`, nearest ? nearest.triangles[which] : null);
+  for (const which of [0, 1]) {
+    show(`triangle-${which}`, nearest ? `${isArm() ? 'triangle ' : ''}${nearest.triangles[which]}` : null);
+    show(`side-${which}`, isArm() ? nearest && nameOf(answer.pair[which]) : 'AB'[which]);
+  }
+  // A robot's: its rows stay where they are, or its sliders would jump.
+  for (const row of document.querySelectorAll('#verdict dd'))
+    row.style.visibility = row.previousElementSibling.style.visibility =
+      isArm() && row.textContent === '–' ? 'hidden' : '';
 }
+const nameOf = (part) => robot.parts[part].name.replace('_', ' ');
 
 // For a screen reader, once nothing moves, and only what is new.
 function say() {
@@ -54,7 +62,7 @@ function markFirst() {
 
 // Of a robot's motion: what hits what, by their names.
 function describeArm({verdict, inside, pair}) {
-  const named = pair?.map((part) => robot.parts[part].name.replace('_', ' ')).join(' and ');
+  const named = pair?.map(nameOf).join(' and ');
   if (verdict === VERDICT.FREE)
     return ['free', 'Free', `Proven: none of ${robot.pairs.length} pairs ever meets.`];
   if (verdict === VERDICT.UNDECIDED)
@@ -63,10 +71,14 @@ function describeArm({verdict, inside, pair}) {
     `Proven: ${named} meet; perhaps not for the first time.`];
 }
 function askArm() {
-  const start = performance.now();
-  answer = robot.ask(1);
-  markFirst();
-  answer.microseconds = 1000 * (performance.now() - start);
+  const times = [];
+  for (const end = performance.now() + 8; times.length < 5 && (!times.length || performance.now() < end);) {
+    const start = performance.now();
+    answer = robot.ask(1);
+    times.push(performance.now() - start);
+    markFirst();
+  }
+  answer.microseconds = 1000 * times.sort((a, b) => a - b)[times.length >> 1];
   answer.description = describeArm(answer);
   showAnswer();
 }
@@ -82,10 +94,10 @@ function askUnit(which) {
 }
 
 function ask(milliseconds, batches) {
+  const doubted = isArm() ? -1 : bodies.findIndex(({unsure}) => unsure);
+  find('unit').hidden = doubted < 0;
   if (isArm())
     return askArm();
-  const doubted = bodies.findIndex(({unsure}) => unsure);
-  find('unit').hidden = doubted < 0;
   if (doubted >= 0)
     return askUnit(doubted);
   const asked = question();
@@ -95,6 +107,7 @@ function ask(milliseconds, batches) {
     const taken = performance.now() - start;
     answer = library.answer();
     markFirst();
+    answer.first = asked.first;
     answer.description = describe(answer, asked);
     batch = Math.max(1, Math.min(batch, Math.ceil(milliseconds / taken)));
     answer.microseconds = taken > 10 ? 1000 * taken : microseconds(asked, milliseconds, batches);

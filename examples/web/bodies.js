@@ -13,6 +13,7 @@ function showBody(which) {
   const offer = unitsOffer(which);
   part('.units').hidden = !offer;
   part('.units').textContent = offer?.[1] ?? '';
+  showLanguages();
 }
 
 function notify(text) {
@@ -36,13 +37,15 @@ async function showFindings(which) {
   await painted();
   list.replaceChildren(...library.findings(which).map((line) => {
     const item = document.createElement('li');
-    item.textContent = line.split('; try --')[0];  // options of `svcd`, which a page has none of
+    item.textContent = line.split(/;? try --| \(say --/)[0];  // options of `svcd`, which a page has none of
     return item;
   }));
 }
 
 // What is wrong with a file, and where.
 function faultOf(name, bytes, error) {
+  if (!/\.(obj|stl|ply|glb)$/i.test(name))
+    return `${name}: it is none of OBJ, STL, PLY and GLB, the formats that are read`;
   if (!error.line)
     return `${name}: ${error.message}`;
   const line = new TextDecoder().decode(bytes).split('\n')[error.line - 1] ?? '';
@@ -56,6 +59,8 @@ async function loadFile(which, file) {
   await new Promise((drawn) => requestAnimationFrame(() => setTimeout(drawn)));
   let fault = '';
   try {
+    if (!bytes.length)
+      throw new Error('the file is empty');
     loadBody(which, file.name, bytes);
     Object.assign(bodies[which], {scale: 1, dropped: true});
     refit();
@@ -75,15 +80,22 @@ async function loadFiles(which, files) {
     openScene('mug');
   const faults = list.length > 2 ? ['Of more than two files the first two are taken'] : [];
   for (const [i, file] of list.slice(0, 2).entries()) {
-    const at = list.length === 1 ? which : i;
+    const named = wanted?.files.indexOf(file.name) ?? -1;
+    const at = named >= 0 ? named : list.length === 1 ? which : i;
     faults.push(await loadFile(at, file));
     bodies[at].unsure = faults.at(-1) === '' && unitsOffer(at) !== null;
   }
   bodies.forEach((body, i) => body.unsure &&= unitsOffer(i) !== null);  // beside the other one
+  if (isWanted())
+    try {
+      applyLink(wanted);
+      wanted = null;
+    } catch (error) {
+      resetMotion();
+      faults.push(`The link's motion is not taken: ${error.message}`);
+    }
   changed(true);
   bodies.forEach((_, i) => showBody(i));
-  if (bodies.some(({dropped}) => dropped))
-    show('note', `${bodies[0].name} moves, ${bodies[1].name} rests.`);
   notify(faults.filter((fault) => fault).join('. '));
 }
 

@@ -4,23 +4,30 @@
 // ---- playing it
 
 let playing = 0;
+let paused = false;  // on its way: the time stays there
 function play() {
-  cancelAnimationFrame(playing);
-  const begin = performance.now();
+  if (playing)
+    return stopPlaying(true);
   const end = find('follow').checked && answer ? contactTime(answer) : 1;
-  find('follow').checked = false;
+  const from = paused ? Number(find('time').value) % end || 0 : 0;
+  const begin = performance.now() - 3000 * from;
   const step = (now) => {
-    const time = Math.min(end, Math.max(0, now - begin) / 3000);
+    const time = Math.min(end, Math.max(from, (now - begin) / 3000));
     find('time').value = time;
-    find('follow').checked = time === end;
     changed(false);
-    playing = time < end ? requestAnimationFrame(step) : 0;
+    if (time < end)
+      playing = requestAnimationFrame(step);
+    else
+      stopPlaying(false);
   };
   playing = requestAnimationFrame(step);
+  show('play', 'Pause');
 }
-function stopPlaying() {
+function stopPlaying(isPause) {
   cancelAnimationFrame(playing);
   playing = 0;
+  paused = isPause;
+  show('play', 'Play');
 }
 
 // ---- when something changes
@@ -44,33 +51,34 @@ function frame() {
     ask(1, 3);
     proofFiles = null;
     showProof('Not while it moves');
+    showCopied('');
+    showScene();
     clearTimeout(settled);
     settled = setTimeout(() => {
       showProof(prove());
       writeLink();
       closest = measure();
-      settle(isArm() ? 0 : 3);
+      settle(isArm() ? 1 : 3);
       say();
       changed(false);
     }, 250);
   }
   asking = false;
-  if (find('follow').checked)
+  if (find('follow').checked && !playing && !paused)
     find('time').value = answer ? contactTime(answer) : 1;
   show('time-text', Number(find('time').value).toFixed(3));
   draw();
 }
 function changed(isQuestion) {
-  if (isQuestion && playing) {
-    stopPlaying();
-    find('follow').checked = true;
-  }
+  if (isQuestion)
+    stopPlaying(false);
   asking ||= isQuestion;
   if (!waiting)
     requestAnimationFrame(frame);
   waiting = true;
 }
 function motionChanged() {
+  show('pose-error', '');
   motion.forEach(({position, rotation}, i) => {
     find(`pose-${i}`).value = [...position, ...rotation].map((x) => +x.toFixed(6)).join(' ');
   });

@@ -5,7 +5,7 @@ const sourceOf = (source) =>
   encoded(typeof source === 'string' ? find(source).textContent.slice(1) : source());
 
 function openScene(name) {
-  const {files, scales = [1, 1], note} = SCENES[name];
+  const {files, scales = [1, 1]} = SCENES[name];
   if (name === 'arm' && !robot)
     makeRobot();
   current = name;
@@ -15,14 +15,28 @@ function openScene(name) {
     Object.assign(bodies[which], {scale: scales[which], dropped: false, unsure: false});
     find(`drop-${which}`).querySelector('.error').textContent = '';
   });
-  show('copied', '');
+  showCopied('');
   if (files)
     bodies.forEach((_, which) => showBody(which));
-  for (const link of document.querySelectorAll('#gallery a'))
-    link.ariaCurrent = link.hash === `#v=1&scene=${name}` ? 'true' : null;
-  show('note', note);
   find('follow').checked = true;
   refit();
+}
+
+// Are the bodies and the motion still those of the scene?
+function isScenes() {
+  const {motion: own, scales = [1, 1]} = SCENES[current];
+  const same = (a, b) => a.every((x, k) => Math.abs(x - b[k]) < 1e-6);
+  return isArm() ? bends.every((x) => x === 0) :
+    bodies.every(({dropped, scale}, i) => !dropped && scale === scales[i]) &&
+    motion.every(({position, rotation}, i) =>
+      same(position, own[i].position) && same(rotation, own[i].rotation));
+}
+function showScene() {
+  const own = isScenes();
+  for (const link of document.querySelectorAll('#gallery a'))
+    link.ariaCurrent = own && link.hash === `#v=1&scene=${current}` ? 'true' : null;
+  show('note', own ? SCENES[current].note : isArm() ? 'The arm\'s motion, bent, and asked about anew.' :
+    `${bodies[0].name} moves, ${bodies[1].name} rests.`);
 }
 
 function makeRobot() {
@@ -89,9 +103,6 @@ function readLink(hash) {
   const name = words.get('scene') ?? '';
   if (!Object.hasOwn(SCENES, name))
     refuse(`there is no scene ${short(name)}`);
-  for (const key of ['a', 'b'])
-    if (words.has(key))
-      refuse(`${short(words.get(key))} was dropped, and no link holds a file: drop it again`);
   const read = (key, count, low, high) => {
     const list = words.get(key)?.split(',').map((text) => text.trim() ? Number(text) : NaN);
     if (list && (list.length !== count || !list.every((x) => x >= low && x <= high)))
@@ -105,13 +116,26 @@ function readLink(hash) {
   for (const pose of poses)
     if (pose && Math.abs(Math.hypot(...pose.slice(3)) - 1) > 1e-4)
       refuse('a rotation is no quaternion of length 1');
-  return {name, method, poses, bend: read('bend', 6, -60, 60), scales: read('scales', 2, 1e-6, 1e6),
+  return {name, method, poses, files: ['a', 'b'].map((key) => words.get(key)),
+    bend: read('bend', 6, -60, 60), scales: read('scales', 2, 1e-6, 1e6),
     first: read('first', 1, 0, 1) ?? [1], clearance: read('clearance', 1, 0, 1e6) ?? [0]};
 }
 
+// What a link says that names files, until they are dropped.
+let wanted = null;
+const isWanted = () => wanted?.files.every((file, which) =>
+  !file || bodies[which].dropped && bodies[which].name === file);
 function openLink(hash) {
-  const {name, method, poses, bend, scales, first, clearance} = readLink(hash);
-  openScene(name);
+  const link = readLink(hash);
+  const files = link.files.filter((file) => file).map((file) => `“${file.slice(0, 40)}”`).join(' and ');
+  openScene(link.name);
+  wanted = files ? link : null;
+  if (!wanted)
+    return applyLink(link);
+  notify(`This link was made with ${files}, and no link holds a file: drop it again, and its motion ` +
+    'follows.');
+}
+function applyLink({method, poses, bend, scales, first, clearance}) {
   find('first').checked = first[0] === 1;
   find('clearance').value = clearance[0];
   document.querySelector(`[name=method][value=${method}]`).checked = true;

@@ -28,11 +28,14 @@ function listen() {
   }, {passive: false});
   find('play').addEventListener('click', play);
   find('time').addEventListener('input', () => {
-    stopPlaying();
+    stopPlaying(false);
     find('follow').checked = false;
     changed(false);
   });
-  find('follow').addEventListener('input', () => changed(false));
+  find('follow').addEventListener('input', () => {
+    stopPlaying(false);
+    changed(false);
+  });
   find('reset-view').addEventListener('click', resetView);
   find('reset-motion').addEventListener('click', resetMotion);
   find('save').addEventListener('click', save);
@@ -49,21 +52,8 @@ function listen() {
     showOptions();
     changed(true);
   });
-  find('copy').addEventListener('click', async () => {
-    writeLink();
-    await navigator.clipboard?.writeText(location.href).catch(() => {});
-    notify('The link is copied, and stands in the address bar.');
-  });
-  find('copies').addEventListener('click', async ({target}) => {
-    if (!target.value)
-      return;
-    const text = AS_TEXT[target.value](question(), bodies.map(pathOf));
-    await navigator.clipboard?.writeText(text).catch(() => {});
-    const isOurs = bodies.every(({dropped}) => !dropped);
-    show('copied', `Copied, for the folder of ${current === 'mug' && isOurs ? 'the repository' : isOurs ?
-      'a.obj and b.obj of a saved proof' : 'your files'}.`);
-    find('copied').dataset.text = text;
-  });
+  find('copy').addEventListener('click', copyLink);
+  find('copies').addEventListener('click', ({target}) => target.value && copyQuestion(target.value));
   // its own address: by now the page may have written the last state over it
   addEventListener('hashchange', ({newURL}) => openAddress(new URL(newURL).hash));
   addEventListener('dragover', dragOver);
@@ -84,10 +74,14 @@ function listen() {
 
 // Seven numbers; what the library refuses leaves the pose as it was.
 function typedPose(i) {
-  const values = find(`pose-${i}`).value.trim().split(/[\s,]+/).map(Number);
+  const typed = find(`pose-${i}`).value.trim().split(/[\s,]+/);
+  const values = typed.map(Number);
   const before = motion[i];
   motion[i] = {position: values.slice(0, 3), rotation: values.slice(3)};
   try {
+    const wrong = typed.find((_, k) => Number.isNaN(values[k]));
+    if (wrong !== undefined)
+      throw new Error(`“${wrong.slice(0, 40)}” is not a number`);
     if (values.length !== 7)
       throw new Error('seven numbers are needed');
     library.sweep(question(), 1);

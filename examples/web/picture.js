@@ -19,6 +19,8 @@ const camera = () => cameraOf(view, canvas.clientWidth, canvas.clientHeight);
 // A's colour at a time: green as far as it is proven free.
 function colourAt(t) {
   const proven = answer && !isOpinion(answer) && t < answer.time.low;
+  if (isAny(answer) && t < answer.time.high - 0.001)  // nothing is known of it; the slider's step
+    return colours['body-b'];
   return proven ? colours.free : colours[answer?.description[0] ?? 'doubt'];
 }
 
@@ -30,10 +32,12 @@ function armThings(time, alpha) {
   }));
 }
 
+const bodyB = (alpha) =>
+  ({mesh: 'body-1', pose: AT_REST, size: bodies[1].scale, colour: colours['body-b'], alpha});
 function ghosts(time) {
   if (isArm())
     return [0, 1].flatMap((end) => armThings(end, 0.2).filter((_, i) => robot.parts[i].moves));
-  const list = [];
+  const list = answer?.inside ? [bodyB(0.4)] : [];
   for (let i = 0; i < GHOSTS; i++) {
     const t = i / (GHOSTS - 1);
     const end = i === 0 || i === GHOSTS - 1;
@@ -191,7 +195,7 @@ function draw() {
   const solids = isArm() ? [path, ...armThings(time, 1)] : [
     {mesh: 'ground', pose: AT_REST, size: 1, colour: colours.grid, alpha: 1},
     path,
-    {mesh: 'body-1', pose: AT_REST, size: bodies[1].scale, colour: colours['body-b'], alpha: 1},
+    ...answer?.inside ? [] : [bodyB(1)],  // else it is a ghost, since it may hide A
     {mesh: 'body-0', pose: poseAt(time), size: bodies[0].scale, colour: colourAt(time), alpha: 1},
   ];
   scene.draw(from, solids, ghosts(time), marks());

@@ -5,6 +5,7 @@ let proofFiles = null;  // [name, bytes] each; null where there is no proof of t
 function showProof(why) {
   find('save').disabled = !proofFiles;
   find('save').title = why;
+  show('why', proofFiles ? '' : `${why}.`);
   show('save', proofFiles ? `Save the proof, ${proofFiles[0][1].length} bytes` : 'Save the proof');
 }
 
@@ -30,7 +31,7 @@ function objFile({format, file, positions, indices}) {
 
 function proveArm() {
   if (answer.verdict !== VERDICT.FREE)
-    return 'Only a motion that is free can be saved with its proof';
+    return 'Only a free motion has a proof to save';
   try {
     proofFiles = robot.prove();
   } catch (error) {
@@ -59,7 +60,7 @@ function prove() {
         'They touch, or come too near for a certificate';
   const [a, b] = asked.scales;
   const clearance = asked.clearance ? ` --clearance ${asked.clearance}` : '';
-  const lines = [`nsvcd-problems 1  # build/verify proof.txt .${clearance}`,
+  const lines = [`nsvcd-problems 1  # build/verify proof/proof.txt proof${clearance}`,
     ...bodies.map(({name}, i) => `mesh ${'AB'[i]} ${'ab'[i]}.obj  # ${name.replace(/\s/g, ' ')}`),
     `problem proof A ${a} B ${b}  0 0 0  0 0 0 1  -1 nan 2`,
     ...poses.map((numbers) => numbers.join(' '))];
@@ -69,17 +70,13 @@ function prove() {
     'proves one, not that it is the first';
 }
 
-// Where a file is that the page shows: the first scene's are in the repository, the others' in a proof.
-const pathOf = ({name, dropped}, which) => dropped ? name :
-  current === 'mug' ? `examples/assets/${name}` : `${'ab'[which]}.obj`;
-
-// A tar file.
+// A tar file of a folder, proof.
 function pack(files) {
   const blocks = files.flatMap(([name, bytes]) => {
     const header = new Uint8Array(512);
     const put = (at, text) => header.set(encoded(text), at);
     const octal = (number, digits) => number.toString(8).padStart(digits, '0');
-    put(0, name);
+    put(0, `proof/${name}`);
     put(100, '0000644\x000000000\x000000000\0');  // mode, user, group
     put(124, `${octal(bytes.length, 11)}\0${octal(Math.floor(Date.now() / 1000), 11)}\0`);
     put(148, '        0');  // the sum, as if blank, and that it is a file
@@ -95,7 +92,9 @@ function save() {
   link.href = URL.createObjectURL(pack(proofFiles));
   link.download = 'proof.tar';
   link.click();
-  show('copied', `Anyone can check it, without this library: cc -O2 examples/verify/verify.c -lm -o verify; tar xf proof.tar; ./verify ${
-    isArm() ? 'arm.txt .' : `proof.txt .${question().clearance ? ` --clearance ${question().clearance}` : ''}`}`);
+  const clearance = isArm() || !question().clearance ? '' : ` --clearance ${question().clearance}`;
+  showCopied('Anyone can check it. In a clone of the repository, with proof.tar in it:',
+    `cc -O2 examples/verify/verify.c -lm -o verify\ntar xf proof.tar\n./verify proof/${
+      isArm() ? 'arm' : 'proof'}.txt proof${clearance}`);
   setTimeout(URL.revokeObjectURL, 60000, link.href);
 }

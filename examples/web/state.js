@@ -92,7 +92,7 @@ function microseconds(asked, milliseconds, batches) {
 }
 
 // What an answer is called, what it means, and the colour that it is drawn in.
-function describe(answer, {method, clearance}) {
+function describe(answer, {method, clearance, first}) {
   const near = `${1000 * clearance} mm`;
   const opinion = `The network's opinion, logit ${answer.opinion.logit.toFixed(1)}: no proof.`;
   if (answer.inside)
@@ -103,18 +103,22 @@ function describe(answer, {method, clearance}) {
       'They come too close to tell without meeting, one seems to be inside of what is not quite closed, ' +
       'or it is more work than allowed.'];
   const hits = answer.verdict === VERDICT.HIT;
+  const more = first > 0 ? '' : '; perhaps not for the first time';
   if (answer.by === BY.NETWORK)
     return hits ? ['hit', 'Probably hits', opinion] : ['free', 'Probably free', opinion];
   if (hits && clearance > 0)
-    return ['hit', `Closer than ${near}`, 'Proven: these two triangles come as close.'];
+    return ['hit', `Closer than ${near}`, `Proven: these two triangles come as close${more}.`];
   if (hits)
-    return ['hit', 'Hit', 'Proven: these two triangles meet.'];
+    return ['hit', 'Hit', `Proven: these two triangles meet${more}.`];
   if (clearance > 0)
     return ['free', 'Free', `Certified: never closer than ${near}, rotation included.`];
   return ['free', 'Free', 'Certified: the surfaces never meet, rotation included.'];
 }
 // Is it that the network thinks so, and no more?
 const isOpinion = (answer) => answer?.by === BY.NETWORK && !answer.inside;
+// Is it a hit that something earlier may precede?
+const isAny = (answer) =>
+  answer?.verdict === VERDICT.HIT && answer.by === BY.PROOF && !answer.inside && !answer.first;
 // Are there two triangles that prove a hit?
 const isWitnessed = (answer) =>
   answer?.verdict === VERDICT.HIT && answer.by === BY.PROOF && !answer.inside;

@@ -283,9 +283,14 @@ class Page(Hands):
     def error(self, which: int) -> str:
         return self.find(f"drop-{which}").find_element(By.CLASS_NAME, "error").text
 
+    def taken(self) -> float:
+        """What the page shows, in microseconds."""
+        number, unit = self.text("microseconds").split()
+        return float(number) * {"µs": 1, "ms": 1000}[unit]
+
     def contact(self):
         shown = self.text("contact-time")  # of what is free: when it is nearest
-        return float(shown[4:]) if shown.startswith("t = ") and self.text("contact-name") == "contact at" else None
+        return float(shown[4:]) if shown.startswith("t = ") and self.text("contact-name").endswith("contact at") else None
 
     def assert_native(self, expected: tuple):
         """The page says what build/svcd says, of times within twice the tolerance of a first contact."""
@@ -374,7 +379,12 @@ class Page(Hands):
                   node.get("properties", [])}] for node in nodes if not node["ignored"]]
         self.assertEqual([node for node in nodes if node[2].get("focusable") and not node[1]], [])
         self.assertEqual({role for role, _, facts in nodes if facts.get("live", "off") != "off"} - {"status", "alert"}, set())
-        self.assertEqual([link.text for link in self.browser.find_elements(By.CSS_SELECTOR, "[aria-current=true]")], ["Mug"])
+        def current() -> list:
+            return [link.text for link in self.browser.find_elements(By.CSS_SELECTOR, "[aria-current=true]")]
+
+        self.assertEqual((current(), self.text("note")), ([], "mug.obj moves, dish_rack.obj rests."))
+        self.click("#reset-motion")
+        self.assertEqual((current(), self.text("note")), (["Mug"], "A mug is carried into a dish rack."))
 
     def test_answers_are_those_of_svcd(self):
         rng = random.Random(7)
@@ -385,7 +395,7 @@ class Page(Hands):
             self.set_poses(start, end)
             with self.subTest(start=start, end=end):
                 self.assert_native(answer)
-            times.append(float(self.text("microseconds").split()[0]))
+            times.append(self.taken())
             ratios.append(times[-1] / answer[3])
         self.assertEqual({status for _, _, status, _ in expected}, {"witness", "certified-free"})
         median = sorted(times)[len(times) // 2]
@@ -397,7 +407,7 @@ class Page(Hands):
     def test_time_of_the_first_question(self):
         for flags in (("--first", "0.01"), ()):
             time.sleep(1.5)  # it looks at the clock again when nothing moves
-            taken = float(self.text("microseconds").split()[0])
+            taken = self.taken()
             alone = native([self.poses()], *flags, "--repeat", "1000")[0][3]
             print(f"test_page: the question that the page opens with, {'first' if flags else 'any'} contact: "
                   f"{taken} us, in build/svcd at best {alone}", flush=True)
@@ -412,7 +422,8 @@ class Page(Hands):
     def test_options(self):
         poses = self.poses()
         self.click("#first")
-        self.assertEqual(self.text("free-until"), "t = 0.000")
+        self.assertEqual((self.text("free-until"), self.text("contact-name")), ("–", "a contact at"))
+        self.assertIn("perhaps not for the first time", self.text("verdict-text"))
         self.assertAlmostEqual(self.contact(), native([poses])[0][1], delta=2e-3)
         self.click("#first")
         self.set_poses(*HIGH)
@@ -432,6 +443,7 @@ class Page(Hands):
         self.click("[name=method][value=network]")
         self.assertEqual(self.text("verdict-title"), "Probably hits")
         self.assertIn("opinion", self.text("verdict-text"))
+        self.assertEqual(self.text("contact-name"), "guessed at")
 
     def test_slider(self):
         contact = self.text("time-text")
@@ -443,7 +455,19 @@ class Page(Hands):
         self.assertEqual(self.text("time-text"), contact)
         self.find("play").click()
         self.until(lambda: 0 < float(self.text("time-text")) < float(contact))
+        self.click("#play")
+        paused = self.text("time-text")
+        self.assertEqual(self.text("play"), "Play")
+        time.sleep(0.3)
+        self.assertEqual(self.text("time-text"), paused)
+        self.find("play").click()
+        self.assertEqual(self.text("play"), "Pause")
         self.until(lambda: self.text("time-text") == contact and self.find("follow").is_selected())
+        self.click("#follow")
+        self.find("play").click()
+        self.until(lambda: self.text("time-text") == "1.000")
+        self.frames()
+        self.assertEqual((self.text("time-text"), self.find("follow").is_selected()), ("1.000", False))
 
     def test_picture(self):
         self.click("[name=method][value=network]")  # has no witness, whose pixels SwiftShader varies
@@ -476,6 +500,10 @@ class Page(Hands):
         self.assertIn("not of unit length", self.text("pose-error"))
         self.set("pose-1", "1 2 3", "change")
         self.assertIn("seven numbers", self.text("pose-error"))
+        self.set("pose-1", "0 0 0.3 0 0 zero 1", "change")
+        self.assertIn("“zero” is not a number", self.text("pose-error"))
+        self.click("#reset-motion")
+        self.assertEqual(self.text("pose-error"), "")
         self.set("pose-0", before[0], "change")
         self.assertEqual(self.text("pose-error"), "", "the end is what it was")
         self.assert_native(native([before], "--first", "0.01")[0])
@@ -521,7 +549,7 @@ class Page(Hands):
         size = (folder / "proof.cert").stat().st_size
         self.assertEqual(self.text("save"), f"Save the proof, {size} bytes")
         command = (folder / "proof.txt").read_text().split("\n")[0].split("#")[1].split()
-        self.assertEqual(command[:3], ["build/verify", "proof.txt", "."])
+        self.assertEqual(command[:3], ["build/verify", "proof/proof.txt", "proof"])
         return command[3:]
 
     def test_proofs(self):
@@ -550,7 +578,7 @@ class Page(Hands):
         open_cube = cube(0.5).rstrip("\n").rsplit(" ", 1)[0] + "\n"
         self.drop(0, [["small.obj", cube(0.1)], ["open.obj", open_cube]])
         self.set_poses("0 0 0 0 0 0 1", "0.1 0 0 0 0 0 1")
-        self.until(lambda: "proven" in self.find("save").get_attribute("title"))
+        self.until(lambda: "proven" in self.text("why"))
         self.assertFalse(self.find("save").is_enabled())
 
     def test_wrong_files(self):
@@ -559,7 +587,7 @@ class Page(Hands):
             "v 0 0 0\nv 1 0 0\nf 1 2\n": "wrong.obj, line 3: a line cannot be understood",
             "v 0 0 0\nv 1 0 0\nv 0 1 0\n\nf 1 2 9\n": "wrong.obj, line 5: an index is zero or refers to no vertex",
             "v 0 0 zero\n" + CUBE_FACES: "wrong.obj, line 1: a line cannot be understood",
-            "": "wrong.obj: there is no triangle",
+            "": "wrong.obj: the file is empty",
             "\u0000\u0001PNG": "wrong.obj",
         }
         for text, message in wrong.items():
@@ -648,6 +676,7 @@ class Page(Hands):
         self.assertIn("millimetres: use 0.001", self.part(0, "units").text)
         self.assertEqual(self.text("verdict-title"), "In which unit?")  # before any answer
         self.assertIn("part.obj would be 120 m long", self.text("verdict-text"))
+        self.assertFalse(self.find("microseconds").is_displayed() or self.find("save").is_displayed())
         self.find("unit-keep").click()
         self.until(lambda: self.text("verdict-title") == "Hit")
         self.assertFalse(self.find("unit").is_displayed())
@@ -690,8 +719,9 @@ class Page(Hands):
         """What is copied for a terminal, for Python and for C says what the page says."""
         def copied(language: str) -> str:
             self.click(f"#copies [value={language}]")
-            self.until(lambda: self.find("copied").get_attribute("data-text"))
-            return self.find("copied").get_attribute("data-text")
+            self.until(lambda: "opied" in self.text("copied"))
+            self.assertIn("the folder of the repository", self.text("copied"))
+            return self.find("copied-text").get_attribute("textContent")
 
         root = Path(__file__).resolve().parents[2]
         shown = float(self.text("contact-time").split()[-1])
@@ -717,6 +747,28 @@ class Page(Hands):
                                      env={**os.environ, "PYTHONPATH": str(root / "examples/python")})
                 self.assertEqual(out.stdout.split()[:1], [verdict], out)
 
+    def test_what_is_copied_is_told_truly(self):
+        """Whose the files are, that the browser has refused, and that C does not read all formats."""
+        files = formats(0.1)
+        self.drop(0, [["my cube.stl", files["cube.stl"]]])
+        self.browser.execute_script("navigator.clipboard.writeText = () => Promise.reject(new Error('no'))")
+        self.click("#copies [value=C]")
+        self.until(lambda: self.text("copied"))
+        for words in ("did not let", "my cube.stl (yours)", "examples/assets/dish_rack.obj (the repository)"):
+            self.assertIn(words, self.text("copied"))
+        self.assertIn("nsvcd_mesh_load", self.text("copied-text"))
+        self.click("#copy")
+        self.assertIn("did not let", self.text("notice"))
+        self.assertIn("no files: who opens it has to drop my cube.stl", self.text("notice"))
+        self.browser.execute_script("navigator.clipboard.writeText = () => Promise.resolve()")
+        self.click("#copies [value=svcd]")
+        self.until(lambda: self.text("copied").startswith("Copied, for a folder with"))
+        self.set_poses(*HIGH)
+        self.assertEqual(self.text("copied") + self.text("copied-text"), "", "it is of another motion")
+        self.drop(0, [["cube.ply", files["cube.ply"]]])
+        self.assertFalse(self.browser.find_element(By.CSS_SELECTOR, "#copies [value=C]").is_enabled())
+        self.assertIn("not PLY", self.text("no-c"))
+
     def test_findings_are_those_of_info(self):
         lines = cube(0.1).splitlines()
         bad = {"open.obj": "\n".join(lines[:-1]) + "\n",
@@ -728,7 +780,8 @@ class Page(Hands):
                 path = Path(folder) / name
                 path.write_text(text)
                 out = subprocess.run([SVCD, "info", path], capture_output=True, text=True).stdout
-                expected = [line.split(": ", 1)[1] for line in out.splitlines() if line.startswith("wrong: ")]
+                expected = [re.sub(r" \(say --.*", "", line.split(": ", 1)[1])  # options of svcd, which a page has none of
+                            for line in out.splitlines() if line.startswith("wrong: ")]
                 self.drop(0, [[name, text]])
                 shown = [item.text for item in self.part(0, "findings").find_elements(By.TAG_NAME, "li")]
                 self.assertEqual(shown, expected)
@@ -770,6 +823,8 @@ class Page(Hands):
         self.until(lambda: saved.exists() and saved.stat().st_size > 0)  # it is made empty first
         with tarfile.open(folder / "proof.tar") as tar:
             tar.extractall(folder)
+        for file in (folder / "proof").iterdir():
+            file.rename(folder / file.name)
 
     def assert_arm_accepted(self, folder: Path):
         self.save_files(folder)
@@ -815,7 +870,7 @@ class Page(Hands):
                     self.assert_arm_accepted(folder / f"bent-{n}")
                     self.assertNotEqual((folder / f"bent-{n}" / "up.cert").read_bytes(), data)
                 else:
-                    self.until(lambda: "Only a motion that is free" in self.find("save").get_attribute("title"))
+                    self.until(lambda: "Only a free motion" in self.text("why"))
                     self.assertFalse(self.find("save").is_enabled())
                     self.assertTrue(self.find("contact").is_displayed() or "inside" in self.text("verdict-text"))
         self.assertEqual(seen, {"Free", "Hit"})
@@ -853,7 +908,7 @@ class Page(Hands):
             "v=1&scene=mug&end=0,0,0,0,0,0,2": "quaternion", "v=1&scene=mug&scales=0,1": "scales",
             "v=1&scene=mug&clearance=-1": "clearance", "v=1&scene=mug&method=constructor": "no method",
             "v=1&scene=arm&bend=1,2,3": "bend is not 6", "v=1&scene=arm&bend=90,0,0,0,0,0": "bend is not",
-            "v=1&scene=mug&b=my%20part.stl": "“my part.stl” was dropped", "%": "means nothing", "v=1": "no scene",
+            "v=1&scene=mug&b=my%20part.stl": "“my part.stl”, and no link holds a file", "%": "means nothing", "v=1": "no scene",
         }
         for hash, why in refused.items():
             self.browser.get("about:blank")
@@ -862,11 +917,14 @@ class Page(Hands):
             self.assertEqual((self.name(0), self.text("verdict-title")), ("A: mug.obj", "Hit"))
         self.assertEqual(self.browser.find_elements(By.CSS_SELECTOR, "img"), [])
         self.drop(0, [["my part.stl", formats(0.1)["cube.stl"]]])
+        self.set_poses("0 -1 0.7 0 0 0 1", "0 1 0.55 0 0 0 1")
         link = self.link()
         self.assertIn("a=my%20part.stl", link)
         self.browser.get("about:blank")
         self.open(self.address + link)
         self.assertIn("drop it again", self.text("notice"))
+        self.drop(0, [["my part.stl", formats(0.1)["cube.stl"]]])
+        self.assertEqual((self.link(), self.find("notice").is_displayed()), (link, False))
         self.browser.execute_script("location.hash = '#v=1&scene=ring'")
         self.until(lambda: self.name(0) == "A: ring.obj")
         self.assertFalse(self.find("notice").is_displayed())
@@ -1059,6 +1117,12 @@ class Throw(Hands):
         self.until(lambda: self.number("questions") < 13)
         self.assertNotEqual(self.find("canvas").screenshot_as_base64, before)
         self.assertEqual(self.number("overlaps"), 0)
+        calls = "WebGL2RenderingContext.prototype.drawArrays = function () { window.drawn = true; }"
+        self.browser.execute_script(calls)
+        time.sleep(0.5)
+        self.assertIsNone(self.browser.execute_script("return window.drawn"), "nothing moves, and it draws")
+        self.press("q")
+        self.until(lambda: self.browser.execute_script("return window.drawn"))
         self.press("r")
         self.until(lambda: self.number("count") == 12 and self.number("asleep") < 12)
         self.assertEqual(self.other(), self.address.replace("throw", "index"))

@@ -75,8 +75,13 @@ function camera() {
   const distance = view.zoom * Math.max(11.5, 1 + 4.3 / FIELD / aspect);
   return cameraOf({...view, distance}, canvas.clientWidth, canvas.clientHeight);
 }
+let drawn = '';  // all that a picture is made of
 function draw(list) {
   const from = camera();
+  const wanted = JSON.stringify([view, aim, from.width, from.height, devicePixelRatio, colours, list]);
+  if (wanted === drawn)
+    return;
+  drawn = wanted;
   find('aim').style.left = `${aim[0] * from.width}px`;
   find('aim').style.top = `${aim[1] * from.height}px`;
   if (!scene)

@@ -49,20 +49,38 @@ function showSummary() {
   const {missed, alarms, time} = answer(setting);
   const said = document.createElement('b');
   said.textContent = of(missed.length, 'hits');
+  said.className = missed.length ? '' : 'none';
   const verb = samples ? 'miss' : 'misses';
-  find('summary').replaceChildren(`${subject(SETTINGS[setting])} ${verb} `, said);
-  find('summary').className = missed.length ? '' : 'right';
+  // Nothing is missed, but at a price: that is no lesser half.
+  const alarmed = document.createElement('b');
+  alarmed.textContent = `${alarms.length} false alarm${alarms.length > 1 ? 's' : ''}`;
+  const isPriced = !missed.length && alarms.length > 0;
+  find('summary').replaceChildren(`${subject(SETTINGS[setting])} ${verb} `, said,
+    ...isPriced ? [', with ', alarmed] : []);
+  find('summary').className = missed.length || alarms.length ? '' : 'right';
   const others = kind === 'proof' ? BY_DEFINITION :
     `False alarms: <strong>${of(alarms.length, 'free motions')}</strong>.`;
   find('rest').innerHTML = `${others}
-    <strong><span id="time">${micro(time)}</span> µs</strong> a motion, in this browser.`;
+    <strong><span id="time">${micro(time)}</span> µs</strong> a motion, in this browser<span id="slower"
+    ></span>.`;
+  showSlower();
+}
+// The handle goes from fast to sure, and yet its right end may take less time than what is before it.
+function showSlower() {
+  const times = answers().map((a) => a?.time);
+  const isKnown = SETTINGS[setting].kind === 'proof' && times.every((time) => time);
+  const slower = isKnown ? times.filter((time) => time > times[setting]).length : 0;
+  show('slower', slower ? `: of the ${times.length - 1} ways that are less sure, ${slower} take${
+    slower > 1 ? '' : 's'} longer` : '');
 }
 
 // What the picture shows, in a sentence.
 function sentence(it) {
   const {kind, samples} = SETTINGS[setting];
   if (!it.gaps)
-    return `This one is free: never nearer than ${(1000 * it.distance).toPrecision(2)} mm.`;
+    return `This one is free: never nearer than ${(1000 * it.distance).toPrecision(2)} mm${
+      it.isWrong ? `, and ${subject(SETTINGS[setting]).replace(/^The/, 'the')} ${
+        samples ? 'say it hits' : 'says it hits'}` : ''}.`;
   const from = `first at ${percent(it.time)} of the motion`;
   if (!it.isWrong)
     return `This one is found: it touches ${from}.`;
@@ -161,6 +179,7 @@ function showNumbers() {
       cells.map((cell) => `<td>${cell}</td>`).join('')}</tr>`;
   }).join('');
   show('time', micro(answers()[setting]?.time ?? null));
+  showSlower();
   drawChart();
 }
 
