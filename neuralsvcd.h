@@ -1132,9 +1132,9 @@ typedef struct nsvcd_contact {
 } nsvcd_contact;
 
 // Where the bodies may go: their poses at a time until which they are free of each other, pushed
-// out of what they touch. There is no such pose if they are in contact at the start and no push-out
-// ends that (answer.depth is HUGE_VALF), or if one body is, or may be, inside the other. Then the
-// poses are those at the start, as the caller gave them.
+// out of what they touch; nsvcd_world_slide goes on from there. There is no such pose if they are
+// in contact at the start and no push-out ends that (answer.depth is HUGE_VALF), or if one body is,
+// or may be, inside the other. Then the poses are those at the start, as the caller gave them.
 typedef struct nsvcd_safe_pose {
   // time of the poses: time.low of the answer. If the bodies are about to touch then, it is a
   // little less, by the error of poses in float and of coarse triangles
@@ -1857,7 +1857,7 @@ static const char nsvcd__result_texts[] =
     "a pointer is NULL that must not be: an argument, or a body or an array in one\0"
     "the file is missing or cannot be read\0"
     "out of memory\0"
-    "the memory given is NULL, misaligned, or too small: its size or capacity\0"
+    "the memory given is NULL, misaligned, or smaller than the function for its size says\0"
     "cancelled\0"
     "a count is 0, or larger than the library takes: joint_count, joints, part_count, "
     "body_count, goal_count, guess_count or capacity\0"

@@ -301,9 +301,9 @@ typedef struct nsvcd_contact {
 } nsvcd_contact;
 
 // Where the bodies may go: their poses at a time until which they are free of each other, pushed
-// out of what they touch. There is no such pose if they are in contact at the start and no push-out
-// ends that (answer.depth is HUGE_VALF), or if one body is, or may be, inside the other. Then the
-// poses are those at the start, as the caller gave them.
+// out of what they touch; nsvcd_world_slide goes on from there. There is no such pose if they are
+// in contact at the start and no push-out ends that (answer.depth is HUGE_VALF), or if one body is,
+// or may be, inside the other. Then the poses are those at the start, as the caller gave them.
 typedef struct nsvcd_safe_pose {
   // time of the poses: time.low of the answer. If the bodies are about to touch then, it is a
   // little less, by the error of poses in float and of coarse triangles
