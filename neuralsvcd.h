@@ -1857,7 +1857,7 @@ static const char nsvcd__result_texts[] =
     "a pointer is NULL that must not be: an argument, or a body or an array in one\0"
     "the file is missing or cannot be read\0"
     "out of memory\0"
-    "the memory given is NULL, misaligned, or smaller than the function for its size says\0"
+    "the memory given is NULL, misaligned, or less than a size function says\0"
     "cancelled\0"
     "a count is 0, or larger than the library takes: joint_count, joints, part_count, "
     "body_count, goal_count, guess_count or capacity\0"

@@ -2398,6 +2398,7 @@ static nsvcd_verdict nsvcd__prove_traversal(nsvcd__certifier *c, double t0, doub
     is_unresolved = 1;
     height--;
   }
+  if (is_unresolved) c->made->why = NSVCD_WHY_TOO_NEAR;
   return is_unresolved ? NSVCD_UNDECIDED : NSVCD_FREE;
 }
 
@@ -2411,7 +2412,7 @@ static nsvcd_verdict nsvcd__prove_traversal(nsvcd__certifier *c, double t0, doub
 #define NSVCD__INSTANTS 12
 #define NSVCD__INSTANT_VISITS 2000
 // visits to all of the motion before that
-#define NSVCD__FIRST_VISITS 20000
+#define NSVCD__FIRST_VISITS 100000
 
 // ---- containment
 
@@ -2518,16 +2519,17 @@ static int nsvcd__meet_at_instants(nsvcd__certifier *c, const nsvcd_answer *answ
 static nsvcd_verdict nsvcd__prove_answer(nsvcd__certifier *c, const nsvcd_answer *answer,
                                          size_t visits) {
   const int is_hit = answer && answer->verdict == NSVCD_HIT;
-  nsvcd_verdict verdict = NSVCD_UNDECIDED;
+  const size_t first = visits < NSVCD__FIRST_VISITS ? visits : NSVCD__FIRST_VISITS;
   if (!is_hit) {
-    verdict = nsvcd__prove_traversal(
-        c, 0, 1, visits < NSVCD__FIRST_VISITS ? visits : NSVCD__FIRST_VISITS);
-    if (verdict != NSVCD_UNDECIDED || visits <= NSVCD__FIRST_VISITS) return verdict;
+    const nsvcd_verdict verdict = nsvcd__prove_traversal(c, 0, 1, first);
+    const int is_open = verdict == NSVCD_UNDECIDED && c->made->why != NSVCD_WHY_NOTHING;
+    if (!is_open || c->made->visits >= visits) return verdict;
   }
+  const int touches = c->made->why == NSVCD_WHY_TOO_NEAR;
   const int meets = nsvcd__meet_at_instants(c, answer, visits);
-  c->made->why = NSVCD_WHY_NOTHING;
+  c->made->why = touches && !meets ? NSVCD_WHY_TOO_NEAR : NSVCD_WHY_NOTHING;
   if (meets) return NSVCD_HIT;
-  return nsvcd__prove_traversal(c, 0, 1, visits);
+  return touches ? NSVCD_UNDECIDED : nsvcd__prove_traversal(c, 0, 1, visits);
 }
 
 static int nsvcd__has_open(const nsvcd_tree *tree) {

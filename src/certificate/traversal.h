@@ -289,5 +289,6 @@ static nsvcd_verdict nsvcd__prove_traversal(nsvcd__certifier *c, double t0, doub
     is_unresolved = 1;
     height--;
   }
+  if (is_unresolved) c->made->why = NSVCD_WHY_TOO_NEAR;
   return is_unresolved ? NSVCD_UNDECIDED : NSVCD_FREE;
 }
