@@ -38,13 +38,13 @@ static void warn_of_things(thing *a, thing *b, const float *scales) {
 // Warns if A is far from B on all of its way, as by poses in the unit of the files. Between two
 // poses its origin moves on a line, so that a ball about it bounds what is between.
 static void warn_of_way(const thing *a, const thing *b, const motion *m) {
-  double middle[3], size_a[3], size_b[3], far[3];
+  double middle[3], size_a[3], size_b[3], reach[3];
   double nearest = HUGE_VAL;
   for (int k = 0; k < 3; k++) {
     middle[k] = (b->low[k] + b->high[k]) / 2;
     size_a[k] = a->high[k] - a->low[k];
     size_b[k] = b->high[k] - b->low[k];
-    far[k] = fmax(a->high[k], -a->low[k]);
+    reach[k] = fmax(a->high[k], -a->low[k]);
   }
   for (size_t i = 0; i < m->count; i++) {
     double from[3], way[3];
@@ -56,7 +56,7 @@ static void warn_of_way(const thing *a, const thing *b, const motion *m) {
     nearest = fmin(nearest, oracle_length(from));
   }
   const double sizes = oracle_length(size_a) + oracle_length(size_b);
-  nearest -= oracle_length(far) + oracle_length(size_b) / 2;
+  nearest -= oracle_length(reach) + oracle_length(size_b) / 2;
   if (!(nearest > 100 * sizes)) return;
   const double digit = pow(10, floor(log10(nearest)) - 2);  // three, rounded down
   complain(
