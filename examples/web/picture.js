@@ -70,17 +70,11 @@ function marks() {
   const list = [];
   const {point, normal, triangles, time, gap = 0} = contact;
   for (const which of [1, 0]) {
-    const {positions, indices, scale, pose} = sideAt(which, time);
-    const [a, b, c] = [0, 1, 2].map((k) => {
-      const at = 3 * indices[3 * triangles[which] + k];
-      return [...positions.subarray(at, at + 3)];
-    });
-    scene.loadMesh(`triangle-${which}`,
-      {positions: new Float32Array([a, b, c].flat()), indices: new Uint32Array([0, 1, 2])});
-    scene.loadLines(`edges-${which}`, [a, b, b, c, c, a]);
+    const side = sideAt(which, time);
+    scene.loadTriangle(which, side, triangles[which]);
     for (const mesh of ['triangle', 'edges'])
       list.push({
-        mesh: `${mesh}-${which}`, pose, size: scale,
+        mesh: `${mesh}-${which}`, pose: side.pose, size: side.scale,
         colour: colours[which ? 'witness-b' : 'witness-a'], alpha: 1,
       });
   }

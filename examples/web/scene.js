@@ -275,9 +275,19 @@ function createMeshes(gl) {
   function loadLines(name, points) {
     load(name, new Float32Array(points.flatMap((a) => [...a, 0, 0, 1])), gl.LINES);
   }
+  // One triangle of a mesh: `triangle-NAME`, and its sides, `edges-NAME`.
+  function loadTriangle(name, {positions, indices}, triangle) {
+    const [a, b, c] = [0, 1, 2].map((k) => {
+      const at = 3 * indices[3 * triangle + k];
+      return [...positions.subarray(at, at + 3)];
+    });
+    loadMesh(`triangle-${name}`,
+      {positions: new Float32Array([a, b, c].flat()), indices: new Uint32Array([0, 1, 2])});
+    loadLines(`edges-${name}`, [a, b, b, c, c, a]);
+  }
   loadMesh('arrow', ARROW);
   loadMesh('ball', BALL);
-  return {get: (name) => meshes.get(name), loadMesh, loadLines};
+  return {get: (name) => meshes.get(name), loadMesh, loadLines, loadTriangle};
 }
 
 // What draws on a canvas; null where there is no WebGL 2. A thing to draw is {mesh, pose, size,
@@ -340,5 +350,6 @@ function createScene(canvas) {
     gl.disable(gl.POLYGON_OFFSET_FILL);
   }
 
-  return {draw, loadMesh: meshes.loadMesh, loadLines: meshes.loadLines};
+  const {loadMesh, loadLines, loadTriangle} = meshes;
+  return {draw, loadMesh, loadLines, loadTriangle};
 }

@@ -252,14 +252,7 @@ function camera() {
 function marks(from, {triangles, point}, poses) {
   const list = [];
   for (const which of [1, 0]) {
-    const {positions, indices} = bodies[which];
-    const [p, q, r] = [0, 1, 2].map((k) => {
-      const at = 3 * indices[3 * triangles[which] + k];
-      return [...positions.subarray(at, at + 3)];
-    });
-    scene.loadMesh(`triangle-${which}`,
-      {positions: new Float32Array([p, q, r].flat()), indices: new Uint32Array([0, 1, 2])});
-    scene.loadLines(`edges-${which}`, [p, q, q, r, r, p]);
+    scene.loadTriangle(which, bodies[which], triangles[which]);
     for (const mesh of ['triangle', 'edges'])
       list.push({mesh: `${mesh}-${which}`, pose: poses[which], size: 1, alpha: 1,
         colour: colours[which ? 'witness-b' : 'witness-a']});
