@@ -130,6 +130,16 @@ hello() {  # COMPILER AND FLAGS
 }
 hello "${CC:-cc}" -std=c99 examples/hello.c
 if command -v "${CXX:-c++}" >/dev/null; then hello "${CXX:-c++}" -std=c++11 "$dir/hello.cc"; fi
+# The world of hello_game.c: the crate fell and slept, the character goes along the wall and pushes it.
+cp examples/hello_game.c "$dir/hello_game.cc"
+hello_game() {  # COMPILER AND FLAGS
+  "$@" -O0 -Wall -Wextra -Werror -Iexamples -o "$dir/hello_game" -lm && "$dir/hello_game" >"$dir/out" || fail "hello_game.c: $*"
+  awk '{ gsub(",", "") } /^1.0/ { slept = $0 ~ /0.30[0-9] asleep/ } { gsub("asleep ", "") }
+    END { exit !(slept && NR == 7 && $5 > 1.5 && $7 < 0.32 && $10 > 1.3 && $11 > 1.57 && $11 < 1.6 && $12 > 0.9 && $12 < 0.92) }' "$dir/out" ||
+    fail "hello_game.c says: $(cat "$dir/out")"
+}
+hello_game "${CC:-cc}" -std=c99 examples/hello_game.c
+if command -v "${CXX:-c++}" >/dev/null; then hello_game "${CXX:-c++}" -std=c++11 "$dir/hello_game.cc"; fi
 # 0.60 is the first contact: until 0.59 it is free. Any other is not called the first.
 expect 0 '' build/svcd sweep examples/assets/mug.obj examples/assets/dish_rack.obj --from 0,-0.4,0.3 --to 0,-0.164,0.123
 line '^free'
