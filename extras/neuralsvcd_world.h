@@ -68,7 +68,8 @@ extern "C" {
 // the most contacts of an answer about a world
 #define NSVCD_WORLD_CONTACTS 32
 
-// Bodies in a tree of boxes. It lives in the caller's memory, which must not be moved or copied.
+// Bodies in a tree of boxes. It lives in the caller's memory, and stays there. Its bytes, copied
+// and put back into their place, are the world as it was: with its movers, a saved state.
 typedef struct nsvcd_world nsvcd_world;
 
 // A body of a world. Zero is the default of everything but `body` and the rotation of `pose`.
@@ -179,7 +180,8 @@ NSVCDDEF nsvcd_result nsvcd_world_sweep(const nsvcd_world *world,
                                         size_t workspace_size, nsvcd_world_answer *answer);
 
 // Lists all bodies that a mover meets on its way, sensors too: those that it passes over, shoots
-// through or stands in. What is undecided counts as met.
+// through or stands in. What is undecided counts as met. A sensor as `self`, which rests, sees who
+// is in it now: ask about what is fast with its way of the frame.
 //   question   its question asks HIT
 //   ids        (most); in ascending order
 //   count      not NULL; how many are met, which may be more than `most`
@@ -251,7 +253,7 @@ typedef struct nsvcd_slide_answer {
   nsvcd_slide_options told;
   nsvcd_velocity given;
   float seconds;
-  uint64_t clock;
+  uint64_t clock, slides;
 } nsvcd_slide_answer;
 
 // Moves a body of the world for a frame, at its speed: it goes as far as is proven free, loses the
@@ -260,18 +262,20 @@ typedef struct nsvcd_slide_answer {
 //   world      the body is moved in it; if it was driven, that ends it
 //   velocity   not NULL; becomes the speed at the end
 //   seconds    of the frame
-//   answer     not NULL; zeroed, or that of the same body's slide before, which saves time. On
-//              failure it, the velocity and the body are as they were
+//   answer     not NULL; zeroed, or that of the same body's slide before in this world, which saves
+//              time. On failure it, the velocity and the body are as they were
 //   errors     those of nsvcd_world_sweep; SPEED, TIMES (`seconds`), CLEARANCE (clearance, margin),
 //              VALUE (a mass, an inertia, a friction, a restitution or a slope), AXIS (`up`),
 //              DISTANCE (`step`)
 //   source     sequential impulses (Catto 2006) for the contacts of one body; this library
 //
 // What is proven: where the body is at the end, it is farther than the clearance from every other
-// body, and was so on its way there. If something had come nearer to it than that, it is pushed
-// out, if there is room, by at most four clearances and three margins, and meets nothing on that
-// way. What a contact does to its speed is not proven, it is physics: the others are taken to rest,
-// or to be driven. To move what is hit, give it the impulse, as nsvcd_world_step does.
+// body, and was so on its way there. If something had come nearer to it than that, or is in it by
+// no more than that, it is pushed out, if there is room, by at most four clearances and three
+// margins, and meets nothing else on that way. What is deeper in something stays where it is: its
+// `spent` is 0. To get it out ask nsvcd_world_sweep, FIRST, with a slop, and move it to `safe`.
+// What a contact does to its speed is not proven, it is physics: the others are taken to rest, or
+// to be driven. To move what is hit, give it the impulse, as nsvcd_world_step does.
 NSVCDDEF nsvcd_result nsvcd_world_slide(nsvcd_world *world, size_t id,
                                         const nsvcd_slide_options *options, float seconds,
                                         void *workspace, size_t workspace_size,
@@ -1456,6 +1460,8 @@ typedef struct nsvcd__resident {
   nsvcd__box box;
   // when it came to where it is, on the world's clock
   uint64_t moved;
+  // how often a slide has moved it
+  uint64_t slides;
   uint32_t next_free;
   // which of a step's movers it was last
   uint32_t mover;
@@ -1719,6 +1725,8 @@ typedef struct nsvcd__asker {
   size_t self;
   uint32_t groups, passes;
   int with_sensors;
+  // 1: of bodies that are driven alone
+  int of_driven;
   nsvcd__shape_box shape;
   // what its way may come near, and how near, metres
   nsvcd__box box;
@@ -1774,6 +1782,7 @@ static uint32_t nsvcd__asker_next(const nsvcd__asker *q, uint32_t at) {
   while ((at = nsvcd__tree_next(&world->tree, at, &q->box)) != 0) {
     const nsvcd__resident *r = &world->residents[at];
     if (at == q->self || (r->given.sensor && !q->with_sensors)) continue;
+    if (q->of_driven && !r->is_driven) continue;
     if (!nsvcd__groups_meet(q->groups, q->passes, &r->given)) continue;
     if (nsvcd__boxes_meet(&q->box, &r->box) && nsvcd__asker_may_meet(q, r)) return at;
   }
@@ -2475,6 +2484,25 @@ static double nsvcd__go_by(nsvcd__slide *s, nsvcd__d3 by) {
   return nsvcd__go(s, &to, 1);
 }
 
+// Does the body, pushed out at once, meet nothing on its way? What it is in contact with as it
+// begins it leaves.
+static int nsvcd__meets_nothing_else(nsvcd__asker *asked, const nsvcd_pose *way) {
+  nsvcd__asker q = *asked;
+  q.question.ask = NSVCD_ASK_HIT;
+  q.question.clearance = q.question.to = q.question.slop = 0;
+  q.at_once = 1;
+  nsvcd__asker_goes(&q, way, 2);
+  for (uint32_t id = 0; (id = nsvcd__asker_next(&q, id)) != 0;) {
+    nsvcd_answer answer;
+    q.question.a.count = 2;
+    if (!nsvcd__ask_for(asked, &q, id, &answer)) return 0;
+    if (answer.verdict == NSVCD_FREE) continue;
+    q.question.a.count = 1;
+    if (!nsvcd__ask_for(asked, &q, id, &answer) || answer.verdict == NSVCD_FREE) return 0;
+  }
+  return 1;
+}
+
 // The body cannot go on: something is within its clearance, or about to come there. It is pushed
 // out, to where it rests or else as far as it has to be, by a way on which it meets nothing.
 // Returns whether it was.
@@ -2489,7 +2517,7 @@ static int nsvcd__push_off(nsvcd__slide *s) {
     const nsvcd_pose way[2] = {s->pose, nsvcd__displaced(&s->pose, by)};
     const int may_go = nsvcd__d3_dot(by, by) > 0 &&
                        nsvcd__may_be_at(&q, &way[1], 1, s->clearance, q.since, 0) &&
-                       nsvcd__may_be_at(&q, way, 2, 0, q.since, 0);
+                       nsvcd__meets_nothing_else(&q, way);
     s->ask.questions = q.questions;
     s->ask.work = q.work;
     s->ask.result = q.result;
@@ -2736,12 +2764,19 @@ static int nsvcd__is_still(nsvcd__slide *s, const nsvcd_pose *to) {
   return is_short && !nsvcd__is_driven_near(s);
 }
 
+// Is it the answer of the body's last slide in this world, and not in one before?
+static int nsvcd__is_last_slide(const nsvcd_world *world, size_t id,
+                                const nsvcd_slide_answer *answer) {
+  return answer->slides == world->residents[id].slides;
+}
+
 // Does it rest as it did in the frame before: is it told the same, and has nothing moved that it
 // was in contact with, or that is near?
 static int nsvcd__rests_again(nsvcd__slide *s, float seconds, const nsvcd_velocity *velocity,
                               const nsvcd_slide_answer *before) {
   const nsvcd_world *world = s->ask.world;
-  const int is_same = before->rests && !memcmp(&before->told, s->given, sizeof before->told) &&
+  const int is_same = before->rests && nsvcd__is_last_slide(world, s->ask.self, before) &&
+                      !memcmp(&before->told, s->given, sizeof before->told) &&
                       !memcmp(&before->given, velocity, sizeof before->given) &&
                       !memcmp(&before->pose, &s->pose, sizeof before->pose) &&
                       !memcmp(&before->seconds, &seconds, sizeof seconds);
@@ -2842,7 +2877,9 @@ NSVCDDEF nsvcd_result nsvcd_world_slide(nsvcd_world *world, size_t id,
     // the rest of the frame goes by without it
     const double left = s.left;
     const nsvcd_pose stays = s.pose;
+    s.ask.of_driven = 1;
     const double free_until = nsvcd__go(&s, &stays, 0);
+    s.ask.of_driven = 0;
     s.pose = stays;
     s.left = left;
     if (free_until < 1) out.caught = s.met;
@@ -2858,7 +2895,9 @@ NSVCDDEF nsvcd_result nsvcd_world_slide(nsvcd_world *world, size_t id,
   if (s.ask.result) return s.ask.result;
   if (!out.rests) result = nsvcd_world_move(world, id, &s.pose);
   if (result) return result;
+  if (!out.rests) world->residents[id].slides++;
   out.clock = world->clock;
+  out.slides = world->residents[id].slides;
   nsvcd__tell_slide(&s, velocity, &out);
   *answer = out;
   return NSVCD_OK;
@@ -3432,6 +3471,7 @@ static int nsvcd__was_moved(const nsvcd__crowd *crowd, size_t id, uint64_t since
 static int nsvcd__is_disturbed(const nsvcd__crowd *crowd, const nsvcd_world_mover *m) {
   const nsvcd_slide_answer *last = &m->answer;
   if (nsvcd__mover_speed(crowd, m) > 0) return 1;
+  if (!nsvcd__is_last_slide(crowd->world, m->id, last)) return 1;
   if (last->clock && nsvcd__was_moved(crowd, m->id, last->clock)) return 1;
   for (size_t k = 0; k < last->contact_count && k < NSVCD_WORLD_CONTACTS; k++) {
     const nsvcd_world_mover *other = nsvcd__mover_with(crowd, last->contacts[k].body);
@@ -3579,6 +3619,11 @@ NSVCDDEF nsvcd_result nsvcd_world_step(nsvcd_world *world, nsvcd_world_mover *mo
     if (!result) result = arrives;
   }
   for (size_t k = 0; k < count; k++) {
+    const nsvcd_pose *at = &world->residents[movers[k].id].given.pose;
+    if (memcmp(&movers[k].answer.pose, at, sizeof *at)) {  // it was driven, or never slid
+      movers[k].answer.pose = *at;
+      movers[k].answer.rests = 0;
+    }
     nsvcd__grow_calm(&crowd, &movers[k]);
     out.asleep += movers[k].asleep != 0;
   }

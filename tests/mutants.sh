@@ -568,6 +568,8 @@ slide: half the clearance|s->ask.question.clearance = (float)s->clearance;|s->as
 slide: driven bodies without a speed|const nsvcd__d3 driven = nsvcd__driven_speed(s, s->contacts[k].body, on_other);|const nsvcd__d3 driven = {0 * on_other.x, 0, 0};
 slide: nobody is caught|if (free_until < 1) out.caught = s.met;|
 slide: no way out|return nsvcd__push_off(s) \|\| gone > 0;|return gone > 0;
+slide: what touches at first is stuck|if (answer.verdict == NSVCD_FREE) continue;\n    q.question.a.count = 1;|if (answer.verdict != NSVCD_FREE) return 0;\n    q.question.a.count = 1;
+slide: caught by what is not driven|if (q->of_driven \&\& !r->is_driven) continue;|
 slide: few rounds before doors|nsvcd__met_driven(\&s) ? 4 * rounds : rounds|rounds
 slide: rests on what is gone|if (!r \|\| r->moved > before->clock) return 0;|
 slide: rests whatever comes|if (r->is_driven \|\| r->moved > before->clock) return 0;|
@@ -598,6 +600,9 @@ step: as fast as the world sees it|if (is_thing) nsvcd__add_carried(goes, turns,
 step: those carried see no slip|if (!r->carrier) return nsvcd__d3_of(0, 0, 0);|return nsvcd__d3_of(0, 0, 0);
 step: brakes hold what is carried|is_braked \&\& !is_carried \&\&|is_braked \&\&
 world: boxes in a frame without the way|nsvcd__boxes_meet_in(\&a->poses[0], \&q->shape, a->poses, a->count, q->apart,|nsvcd__boxes_meet_in(\&a->poses[0], \&q->shape, a->poses, 1, q->apart,
+step: rests as in another world|before->rests \&\& nsvcd__is_last_slide(world, s->ask.self, before) \&\&|before->rests \&\&
+step: sleeps as in another world|if (!nsvcd__is_last_slide(crowd->world, m->id, last)) return 1;|
+step: nobody tells where it is driven|movers[k].answer.pose = *at;|
 step: movers of the array's order|return a.height < b.height;|return a.mover < b.mover;
 step: a mover twice|if (!r \|\| r->mover != k \|\| r->given.fixed)|if (!r \|\| r->given.fixed)
 step: what is fixed moves|r->mover != k \|\| r->given.fixed)|r->mover != k)

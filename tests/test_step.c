@@ -77,6 +77,74 @@ static void seven_stacks_of_five_stand(void) {
   stage_end(&s);
 }
 
+// Movers of a level that was left, in the next one: its floor is lower.
+static void a_new_world_begins_afresh(void) {
+  for (int sleepless = 0; sleepless < 2; sleepless++) {
+    nsvcd_world_mover m = {0};
+    for (int level = 0; level < 2; level++) {
+      stage s = stage_begin();
+      stage_add(&s, thing_box(20, 20, 1), pose_of(0, 0, -0.5 - 2 * level), 1);
+      const nsvcd_world_mover fresh = add_cube(&s, 0, 0, 0.2512, 1, 1);
+      if (level == 0) m = fresh;
+      if (level == 1) CHECK_EQ(nsvcd_world_move(s.world, m.id, &m.answer.pose), NSVCD_OK);
+      m.sleepless = sleepless;
+      CHECK_EQ(m.id, fresh.id);
+      for (int f = 0; f < 90; f++) step(&s, &m, 1, &earth);
+      CHECK_NEAR(m.answer.pose.position[2], 0.25 - 2 * level, 2 * (double)NEAR + 1e-5);
+      CHECK_EQ(m.asleep, !sleepless);
+      stage_end(&s);
+    }
+  }
+}
+
+// The bytes of the world and its movers, put back: the same frames follow, to the bit.
+static void what_is_saved_goes_on_as_it_did(void) {
+  enum { CUBES = 5 };
+  stage s = stage_begin();
+  nsvcd_world_mover m[CUBES], saved[CUBES];
+  nsvcd_pose after[2][CUBES];
+  const size_t size = nsvcd_world_size(STAGE_MOST);
+  void *copy = malloc(size);
+  if (!copy) exit(1);
+  add_floor(&s);
+  for (int k = 0; k < CUBES; k++) m[k] = add_cube(&s, 0.03 * k, 0.05 * k, 1 + 0.6 * k, 1, 1);
+  for (int f = 0; f < 10; f++) step(&s, m, CUBES, &earth);
+  memcpy(copy, s.memory, size);
+  memcpy(saved, m, sizeof m);
+  for (int again = 0; again < 2; again++) {
+    for (int f = 0; f < 60; f++) step(&s, m, CUBES, &earth);
+    for (int k = 0; k < CUBES; k++) after[again][k] = stage_pose(&s, m[k].id);
+    memcpy(s.memory, copy, size);
+    memcpy(m, saved, sizeof m);
+  }
+  CHECK(!memcmp(after[0], after[1], sizeof after[0]));
+  for (int k = 0; k < CUBES; k++) {
+    const nsvcd_pose at = stage_pose(&s, m[k].id);
+    CHECK(memcmp(&at, &after[0][k], sizeof at));  // they had moved
+  }
+  free(copy);
+  stage_end(&s);
+}
+
+// Of whoever has not slid too: that sleeps from the start, or is driven.
+static void an_answer_tells_where_it_is(void) {
+  stage s = stage_begin();
+  nsvcd_world_mover m[2];
+  const nsvcd_pose to = pose_of(3, 0, 2);
+  m[0] = add_cube(&s, 1, 2, 3, 1, 1);
+  m[0].asleep = 1;
+  m[1] = add_cube(&s, 3, 0, 1, 1, 1);
+  CHECK_EQ(nsvcd_world_drive(s.world, m[1].id, &to), NSVCD_OK);
+  step(&s, m, 2, &earth);
+  for (int k = 0; k < 2; k++) {
+    const nsvcd_pose at = stage_pose(&s, m[k].id);
+    CHECK(!memcmp(&m[k].answer.pose, &at, sizeof at));
+  }
+  CHECK_EQ(m[0].answer.pose.position[2], 3);
+  CHECK_EQ(m[1].answer.pose.position[2], 2);
+  stage_end(&s);
+}
+
 // ---- on what moves
 
 // How a platform goes: starts, goes, and stops.
@@ -627,6 +695,9 @@ static void masses_are_those_on_paper(void) {
 
 void test_step(void) {
   RUN(seven_stacks_of_five_stand);
+  RUN(a_new_world_begins_afresh);
+  RUN(what_is_saved_goes_on_as_it_did);
+  RUN(an_answer_tells_where_it_is);
   RUN(stacks_ride);
   RUN(a_stack_rides_beneath_a_ceiling);
   RUN(stacks_fall_behind);

@@ -18,7 +18,8 @@
 // the most contacts of an answer about a world
 #define NSVCD_WORLD_CONTACTS 32
 
-// Bodies in a tree of boxes. It lives in the caller's memory, which must not be moved or copied.
+// Bodies in a tree of boxes. It lives in the caller's memory, and stays there. Its bytes, copied
+// and put back into their place, are the world as it was: with its movers, a saved state.
 typedef struct nsvcd_world nsvcd_world;
 
 // A body of a world. Zero is the default of everything but `body` and the rotation of `pose`.
@@ -129,7 +130,8 @@ NSVCDDEF nsvcd_result nsvcd_world_sweep(const nsvcd_world *world,
                                         size_t workspace_size, nsvcd_world_answer *answer);
 
 // Lists all bodies that a mover meets on its way, sensors too: those that it passes over, shoots
-// through or stands in. What is undecided counts as met.
+// through or stands in. What is undecided counts as met. A sensor as `self`, which rests, sees who
+// is in it now: ask about what is fast with its way of the frame.
 //   question   its question asks HIT
 //   ids        (most); in ascending order
 //   count      not NULL; how many are met, which may be more than `most`
@@ -201,7 +203,7 @@ typedef struct nsvcd_slide_answer {
   nsvcd_slide_options told;
   nsvcd_velocity given;
   float seconds;
-  uint64_t clock;
+  uint64_t clock, slides;
 } nsvcd_slide_answer;
 
 // Moves a body of the world for a frame, at its speed: it goes as far as is proven free, loses the
@@ -210,18 +212,20 @@ typedef struct nsvcd_slide_answer {
 //   world      the body is moved in it; if it was driven, that ends it
 //   velocity   not NULL; becomes the speed at the end
 //   seconds    of the frame
-//   answer     not NULL; zeroed, or that of the same body's slide before, which saves time. On
-//              failure it, the velocity and the body are as they were
+//   answer     not NULL; zeroed, or that of the same body's slide before in this world, which saves
+//              time. On failure it, the velocity and the body are as they were
 //   errors     those of nsvcd_world_sweep; SPEED, TIMES (`seconds`), CLEARANCE (clearance, margin),
 //              VALUE (a mass, an inertia, a friction, a restitution or a slope), AXIS (`up`),
 //              DISTANCE (`step`)
 //   source     sequential impulses (Catto 2006) for the contacts of one body; this library
 //
 // What is proven: where the body is at the end, it is farther than the clearance from every other
-// body, and was so on its way there. If something had come nearer to it than that, it is pushed
-// out, if there is room, by at most four clearances and three margins, and meets nothing on that
-// way. What a contact does to its speed is not proven, it is physics: the others are taken to rest,
-// or to be driven. To move what is hit, give it the impulse, as nsvcd_world_step does.
+// body, and was so on its way there. If something had come nearer to it than that, or is in it by
+// no more than that, it is pushed out, if there is room, by at most four clearances and three
+// margins, and meets nothing else on that way. What is deeper in something stays where it is: its
+// `spent` is 0. To get it out ask nsvcd_world_sweep, FIRST, with a slop, and move it to `safe`.
+// What a contact does to its speed is not proven, it is physics: the others are taken to rest, or
+// to be driven. To move what is hit, give it the impulse, as nsvcd_world_step does.
 NSVCDDEF nsvcd_result nsvcd_world_slide(nsvcd_world *world, size_t id,
                                         const nsvcd_slide_options *options, float seconds,
                                         void *workspace, size_t workspace_size,

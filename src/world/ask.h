@@ -24,6 +24,8 @@ typedef struct nsvcd__asker {
   size_t self;
   uint32_t groups, passes;
   int with_sensors;
+  // 1: of bodies that are driven alone
+  int of_driven;
   nsvcd__shape_box shape;
   // what its way may come near, and how near, metres
   nsvcd__box box;
@@ -79,6 +81,7 @@ static uint32_t nsvcd__asker_next(const nsvcd__asker *q, uint32_t at) {
   while ((at = nsvcd__tree_next(&world->tree, at, &q->box)) != 0) {
     const nsvcd__resident *r = &world->residents[at];
     if (at == q->self || (r->given.sensor && !q->with_sensors)) continue;
+    if (q->of_driven && !r->is_driven) continue;
     if (!nsvcd__groups_meet(q->groups, q->passes, &r->given)) continue;
     if (nsvcd__boxes_meet(&q->box, &r->box) && nsvcd__asker_may_meet(q, r)) return at;
   }

@@ -87,12 +87,19 @@ static int nsvcd__is_still(nsvcd__slide *s, const nsvcd_pose *to) {
   return is_short && !nsvcd__is_driven_near(s);
 }
 
+// Is it the answer of the body's last slide in this world, and not in one before?
+static int nsvcd__is_last_slide(const nsvcd_world *world, size_t id,
+                                const nsvcd_slide_answer *answer) {
+  return answer->slides == world->residents[id].slides;
+}
+
 // Does it rest as it did in the frame before: is it told the same, and has nothing moved that it
 // was in contact with, or that is near?
 static int nsvcd__rests_again(nsvcd__slide *s, float seconds, const nsvcd_velocity *velocity,
                               const nsvcd_slide_answer *before) {
   const nsvcd_world *world = s->ask.world;
-  const int is_same = before->rests && !memcmp(&before->told, s->given, sizeof before->told) &&
+  const int is_same = before->rests && nsvcd__is_last_slide(world, s->ask.self, before) &&
+                      !memcmp(&before->told, s->given, sizeof before->told) &&
                       !memcmp(&before->given, velocity, sizeof before->given) &&
                       !memcmp(&before->pose, &s->pose, sizeof before->pose) &&
                       !memcmp(&before->seconds, &seconds, sizeof seconds);
@@ -193,7 +200,9 @@ NSVCDDEF nsvcd_result nsvcd_world_slide(nsvcd_world *world, size_t id,
     // the rest of the frame goes by without it
     const double left = s.left;
     const nsvcd_pose stays = s.pose;
+    s.ask.of_driven = 1;
     const double free_until = nsvcd__go(&s, &stays, 0);
+    s.ask.of_driven = 0;
     s.pose = stays;
     s.left = left;
     if (free_until < 1) out.caught = s.met;
@@ -209,7 +218,9 @@ NSVCDDEF nsvcd_result nsvcd_world_slide(nsvcd_world *world, size_t id,
   if (s.ask.result) return s.ask.result;
   if (!out.rests) result = nsvcd_world_move(world, id, &s.pose);
   if (result) return result;
+  if (!out.rests) world->residents[id].slides++;
   out.clock = world->clock;
+  out.slides = world->residents[id].slides;
   nsvcd__tell_slide(&s, velocity, &out);
   *answer = out;
   return NSVCD_OK;

@@ -115,6 +115,7 @@ static int nsvcd__was_moved(const nsvcd__crowd *crowd, size_t id, uint64_t since
 static int nsvcd__is_disturbed(const nsvcd__crowd *crowd, const nsvcd_world_mover *m) {
   const nsvcd_slide_answer *last = &m->answer;
   if (nsvcd__mover_speed(crowd, m) > 0) return 1;
+  if (!nsvcd__is_last_slide(crowd->world, m->id, last)) return 1;
   if (last->clock && nsvcd__was_moved(crowd, m->id, last->clock)) return 1;
   for (size_t k = 0; k < last->contact_count && k < NSVCD_WORLD_CONTACTS; k++) {
     const nsvcd_world_mover *other = nsvcd__mover_with(crowd, last->contacts[k].body);
@@ -262,6 +263,11 @@ NSVCDDEF nsvcd_result nsvcd_world_step(nsvcd_world *world, nsvcd_world_mover *mo
     if (!result) result = arrives;
   }
   for (size_t k = 0; k < count; k++) {
+    const nsvcd_pose *at = &world->residents[movers[k].id].given.pose;
+    if (memcmp(&movers[k].answer.pose, at, sizeof *at)) {  // it was driven, or never slid
+      movers[k].answer.pose = *at;
+      movers[k].answer.rests = 0;
+    }
     nsvcd__grow_calm(&crowd, &movers[k]);
     out.asleep += movers[k].asleep != 0;
   }

@@ -192,6 +192,25 @@ static double nsvcd__go_by(nsvcd__slide *s, nsvcd__d3 by) {
   return nsvcd__go(s, &to, 1);
 }
 
+// Does the body, pushed out at once, meet nothing on its way? What it is in contact with as it
+// begins it leaves.
+static int nsvcd__meets_nothing_else(nsvcd__asker *asked, const nsvcd_pose *way) {
+  nsvcd__asker q = *asked;
+  q.question.ask = NSVCD_ASK_HIT;
+  q.question.clearance = q.question.to = q.question.slop = 0;
+  q.at_once = 1;
+  nsvcd__asker_goes(&q, way, 2);
+  for (uint32_t id = 0; (id = nsvcd__asker_next(&q, id)) != 0;) {
+    nsvcd_answer answer;
+    q.question.a.count = 2;
+    if (!nsvcd__ask_for(asked, &q, id, &answer)) return 0;
+    if (answer.verdict == NSVCD_FREE) continue;
+    q.question.a.count = 1;
+    if (!nsvcd__ask_for(asked, &q, id, &answer) || answer.verdict == NSVCD_FREE) return 0;
+  }
+  return 1;
+}
+
 // The body cannot go on: something is within its clearance, or about to come there. It is pushed
 // out, to where it rests or else as far as it has to be, by a way on which it meets nothing.
 // Returns whether it was.
@@ -206,7 +225,7 @@ static int nsvcd__push_off(nsvcd__slide *s) {
     const nsvcd_pose way[2] = {s->pose, nsvcd__displaced(&s->pose, by)};
     const int may_go = nsvcd__d3_dot(by, by) > 0 &&
                        nsvcd__may_be_at(&q, &way[1], 1, s->clearance, q.since, 0) &&
-                       nsvcd__may_be_at(&q, way, 2, 0, q.since, 0);
+                       nsvcd__meets_nothing_else(&q, way);
     s->ask.questions = q.questions;
     s->ask.work = q.work;
     s->ask.result = q.result;

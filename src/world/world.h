@@ -18,6 +18,8 @@ typedef struct nsvcd__resident {
   nsvcd__box box;
   // when it came to where it is, on the world's clock
   uint64_t moved;
+  // how often a slide has moved it
+  uint64_t slides;
   uint32_t next_free;
   // which of a step's movers it was last
   uint32_t mover;

@@ -122,7 +122,7 @@ _Velocity = _struct("nsvcd_velocity", linear=c_float * 3, angular=c_float * 3)
 _SlideAnswer = _struct(
     "nsvcd_slide_answer", pose=_Pose, spent=c_float, rests=c_int, ground=c_size_t, ground_normal=c_float * 3, caught=c_size_t,
     contact_count=c_size_t, contacts=_WorldContact * _WORLD_CONTACTS, questions=c_size_t, work=c_size_t, told=_SlideOptions,
-    given=_Velocity, seconds=c_float, clock=c_uint64)
+    given=_Velocity, seconds=c_float, clock=c_uint64, slides=c_uint64)
 _WorldMover = _struct(
     "nsvcd_world_mover", id=c_size_t, how=_SlideOptions, velocity=_Velocity, push_mass=c_float, damping=c_float,
     spin_damping=c_float, asleep=c_int, sleepless=c_int, calm=c_float, answer=_SlideAnswer)
