@@ -249,7 +249,7 @@ typedef enum nsvcd_result {
   // are merged, an index is not one of the joints', or two of them move one joint
   NSVCD_ERROR_JOINT,
   // the axis of a joint or a cone, or a cone's direction, has no length, or is not finite; or
-  // `free_axis` is not finite
+  // `free_axis` is not finite; or `up` is neither 0 nor of unit length
   NSVCD_ERROR_AXIS,
   // a joint's limits are not finite or too large, or low is above high
   NSVCD_ERROR_LIMITS,
@@ -262,7 +262,8 @@ typedef enum nsvcd_result {
   NSVCD_ERROR_PAIR,
   // a cone's angle is not more than 0 and less than pi
   NSVCD_ERROR_CONE,
-  // a joint's value in a start, a goal or a motion is not finite or too large
+  // a joint's value in a start, a goal or a motion is not finite or too large; or a mass, a
+  // friction and the like of a mover is negative, not finite or too large
   NSVCD_ERROR_VALUE,
   // `degree` is not 1 to NSVCD_MAX_DEGREE, or there are more pieces than can be counted
   NSVCD_ERROR_DEGREE,
@@ -270,7 +271,7 @@ typedef enum nsvcd_result {
   NSVCD_ERROR_TURN,
   // `finest` is negative or not finite
   NSVCD_ERROR_FINEST,
-  // `max_distance`, `max_depth` or `apart` is negative, not finite or too large
+  // `max_distance`, `max_depth`, `apart` or `step` is negative, not finite or too large
   NSVCD_ERROR_DISTANCE,
   // `farthest` is negative, not finite or too large
   NSVCD_ERROR_FARTHEST,
@@ -1854,16 +1855,16 @@ static const char *nsvcd__text_of(const char *texts, size_t n) {
 
 static const char nsvcd__result_texts[] =
     "ok\0"
-    "a pointer is NULL that must not be: an argument, or a body or an array in one\0"
+    "a pointer is NULL that must not be: an argument, a body or an array in one\0"
     "the file is missing or cannot be read\0"
     "out of memory\0"
     "the memory given is NULL, misaligned, or less than a size function says\0"
     "cancelled\0"
-    "a count is 0, or larger than the library takes: joint_count, joints, part_count, "
-    "body_count, goal_count, guess_count or capacity\0"
+    "joint_count, joints, part_count, body_count, goal_count, guess_count or capacity is 0 or "
+    "too large, or the world is full\0"
     "the file is of another format than is read here, or is cut short\0"
     "a line cannot be understood, or a face has fewer than three corners\0"
-    "an index is zero or refers to no vertex, or no body\0"
+    "an index is zero, or of no vertex or body\0"
     "a coordinate is not finite, or beyond a million metres\0"
     "there is no triangle, or no area, or the mesh is smaller than 1e-12 metres\0"
     "more vertices, triangles or bytes than can be counted\0"
@@ -1871,24 +1872,22 @@ static const char nsvcd__result_texts[] =
     "low or high is not finite, or low is not less than high on each axis\0"
     "patches is more than 65536, or patch_radius is negative or not finite\0"
     "radius, convex_radius or half is negative, wrongly zero, not finite or too large\0"
-    "this is not a body: its first bytes are others, or it is damaged, "
-    "cut short or misaligned\0"
+    "this is not a body, or it is damaged, cut short or misaligned\0"
     "the body is of another version, model or byte order: encode the mesh again\0"
     "a body holds no triangles, which a proof needs: encode it without no_triangles\0"
     "a body holds no latents, which the network needs: encode it with them, without "
     "convex_radius\0"
-    "poses and count do not agree: count is 0 where poses is NULL, else 1 to 65536\0"
-    "times do not rise, of poses not from 0 to 1 by 1e-7 or more, of merged motions not by "
-    "1e-12 of all\0"
+    "count is 0 where poses is NULL, else 1 to 65536\0"
+    "times do not rise, of poses not from 0 to 1 by 1e-7, of merged motions not by 1e-12 "
+    "of all, or seconds is not above 0\0"
     "a pose's position is not finite or too large\0"
     "a quaternion (x y z w) is not of unit length, to 1e-4\0"
-    "a scale is not finite, negative or out of range, "
-    "or makes a body too small or too large\0"
+    "a scale is not finite or out of range, or makes a body too small or too large\0"
     "a pivot is not finite or too large, or is set for a certificate\0"
     "both sides are the same body in the same motion\0"
     "ask is none of its values\0"
-    "method is none of its values, or cannot answer this: the network knows no FIRST, to, "
-    "clearance or slop; proofs have no gradient\0"
+    "method cannot answer this: the network knows no FIRST, to, clearance or slop; proofs "
+    "have no gradient\0"
     "to is negative, not finite or too large, or set where HIT is asked\0"
     "to_time is not in 0 to 1, or set where FIRST is not asked\0"
     "clearance is negative, not finite or too large\0"
@@ -1904,18 +1903,20 @@ static const char nsvcd__result_texts[] =
     "a joint's kind is none of its values, its parent does not come before it, two motions "
     "move it, or it is none of the scene's\0"
     "the axis of a joint or a cone, its direction, or free_axis has no length, or is not "
-    "finite\0"
+    "finite, or up is no unit vector\0"
     "a joint's limits are not finite or too large, low is above high, or they exclude those "
     "of one that mimics it\0"
     "a speed or acceleration is negative (a joint's), not finite or too large\0"
     "a link is no joint of the scene, or a part none of its parts\0"
     "a pair is not there, or its parts are not, are one, or are on one link\0"
     "a cone's angle is not more than 0 and less than pi\0"
-    "a joint's value (start, goal, guess, points) is not finite or too large\0"
+    "a joint's value (start, goal, points), or a mover's mass, inertia, friction, "
+    "restitution, "
+    "slope or damping is not finite or out of range\0"
     "degree is not 1 to 5, or pieces are more than can be counted\0"
     "joints turn too far in a piece of the motion to be certified\0"
     "finest is negative or not finite\0"
-    "max_distance, max_depth or apart is negative, not finite or too large\0"
+    "max_distance, max_depth, apart or step is negative, not finite or too large\0"
     "farthest is negative, not finite or too large\0"
     "nodes or shortcuts is too large, or edge is negative or no number\0"
     "a held joint has another value in a goal or the guess than in the start\0"
@@ -1926,7 +1927,7 @@ static const char nsvcd__result_texts[] =
     "velocity, acceleration, jerk, collision, duration or margin is not finite, "
     "or seeds or check too large\0"
     "the world is changed at the same time\0"
-    "this build computes wrongly: see the compiler, and its flags\0"
+    "this build computes wrongly: see the compiler's flags\0"
     "unknown result\0";
 
 NSVCDDEF const char *nsvcd_result_string(nsvcd_result result) {

@@ -102,7 +102,7 @@ typedef enum nsvcd_result {
   // are merged, an index is not one of the joints', or two of them move one joint
   NSVCD_ERROR_JOINT,
   // the axis of a joint or a cone, or a cone's direction, has no length, or is not finite; or
-  // `free_axis` is not finite
+  // `free_axis` is not finite; or `up` is neither 0 nor of unit length
   NSVCD_ERROR_AXIS,
   // a joint's limits are not finite or too large, or low is above high
   NSVCD_ERROR_LIMITS,
@@ -115,7 +115,8 @@ typedef enum nsvcd_result {
   NSVCD_ERROR_PAIR,
   // a cone's angle is not more than 0 and less than pi
   NSVCD_ERROR_CONE,
-  // a joint's value in a start, a goal or a motion is not finite or too large
+  // a joint's value in a start, a goal or a motion is not finite or too large; or a mass, a
+  // friction and the like of a mover is negative, not finite or too large
   NSVCD_ERROR_VALUE,
   // `degree` is not 1 to NSVCD_MAX_DEGREE, or there are more pieces than can be counted
   NSVCD_ERROR_DEGREE,
@@ -123,7 +124,7 @@ typedef enum nsvcd_result {
   NSVCD_ERROR_TURN,
   // `finest` is negative or not finite
   NSVCD_ERROR_FINEST,
-  // `max_distance`, `max_depth` or `apart` is negative, not finite or too large
+  // `max_distance`, `max_depth`, `apart` or `step` is negative, not finite or too large
   NSVCD_ERROR_DISTANCE,
   // `farthest` is negative, not finite or too large
   NSVCD_ERROR_FARTHEST,
