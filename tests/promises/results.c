@@ -30,7 +30,7 @@ static void a_text_names_the_field_at_fault(void) {
       {NSVCD_ERROR_BOX, {"low", "high"}},
       {NSVCD_ERROR_PATCHES, {"patches", "patch_radius"}},
       {NSVCD_ERROR_RADIUS, {"radius", "convex_radius", "half"}},
-      {NSVCD_ERROR_BODY, {"not a body", "first bytes", "damaged"}},
+      {NSVCD_ERROR_BODY, {"not a body", "damaged", "cut short"}},
       {NSVCD_ERROR_VERSION, {"version", "model", "byte order"}},
       {NSVCD_ERROR_TRIANGLES, {"triangles", "proof"}},
       {NSVCD_ERROR_LATENTS, {"latents", "network"}},
