@@ -54,12 +54,14 @@ int main(void) {
 
   memset(movers, 0, sizeof movers);  // zero is the default of everything but `id`
   movers[0].id = put(crate, 0, 0.5f, 1.5f, 2);
+  movers[0].how.clearance = 0.002f;  // it rests off the floor by once to twice that
   movers[0].how.mass = 20;
   movers[0].how.friction = 0.5f;
   for (int k = 0; k < 3; k++) movers[0].how.inertia[k] = 20 * 0.6f * 0.6f / 6;  // of a cube
   movers[1].id = put(walker, 0, -3, 0.5f, 1);
   movers[1].how.up[2] = 1;  // it stands upright, and has no mass: a character
   movers[1].how.step = 0.25f;
+  movers[1].how.clearance = 0.002f;
   movers[1].push_mass = 70;
   memset(&options, 0, sizeof options);
   options.gravity[2] = -9.81f;

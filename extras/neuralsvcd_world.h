@@ -275,7 +275,8 @@ typedef struct nsvcd_slide_answer {
 // margins, and meets nothing else on that way. What is deeper in something stays where it is: its
 // `spent` is 0. To get it out ask nsvcd_world_sweep, FIRST, with a slop, and move it to `safe`.
 // What a contact does to its speed is not proven, it is physics: the others are taken to rest, or
-// to be driven. To move what is hit, give it the impulse, as nsvcd_world_step does.
+// to be driven. To move what is hit, give it the impulse, as nsvcd_world_step does. What spins
+// keeps its spin, as a ball does: there is no gyroscopic moment.
 NSVCDDEF nsvcd_result nsvcd_world_slide(nsvcd_world *world, size_t id,
                                         const nsvcd_slide_options *options, float seconds,
                                         void *workspace, size_t workspace_size,
