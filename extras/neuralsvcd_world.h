@@ -2184,8 +2184,8 @@ typedef struct nsvcd__hold {
   nsvcd__d3 speed;
   // metres: how much nearer it is than half a margin beyond the clearance; below 0: farther
   double lacks;
-  // metres a second, along the normal: at least
-  double least;
+  // metres a second, along the normal: at least; and how fast the body came against it
+  double least, into;
   // what a unit impulse along the normal changes: the speed there, and the spin
   double give;
   nsvcd__d3 turn;
@@ -2275,6 +2275,18 @@ static void nsvcd__respond(nsvcd__thing *thing, nsvcd__hold *holds, size_t count
   }
 }
 
+// Joules.
+static double nsvcd__energy_of(const nsvcd__thing *thing) {
+  const nsvcd__d3 own = nsvcd__dmat3_apply_transpose(&thing->axes, thing->angular);
+  const nsvcd__d3 inverse = thing->inverse_inertia;
+  double twice = nsvcd__d3_dot(thing->linear, thing->linear) / thing->inverse_mass;
+  for (size_t k = 0; k < 3; k++) {
+    const double spin = nsvcd__d3_axis(own, k);
+    if (nsvcd__d3_axis(inverse, k) > 0) twice += spin * spin / nsvcd__d3_axis(inverse, k);
+  }
+  return 0.5 * twice;
+}
+
 // How fast a body is to go so that it is half a margin off everything: a share of what each contact
 // lacks, in a frame. That is no speed that it has, and it does not turn. Contacts are soft: so
 // between two walls that are too close for that it goes half way.
@@ -2315,6 +2327,8 @@ static nsvcd__d3 nsvcd__leaving(const nsvcd__hold *holds, size_t count, double s
 // of the margin: a way in which no point goes farther is none for what rubs against something
 #define NSVCD__STILL 0.05
 #define NSVCD__MOST_STOPS 4
+// of the energy before: more than impulses leave that have not converged
+#define NSVCD__BOUNCE_ENERGY 1.001
 // radians: the most that a body turns in a way
 #define NSVCD__MOST_TURN 2.0
 
@@ -2340,8 +2354,10 @@ typedef struct nsvcd__slide {
   size_t met;
   // a character's: of its speed, that is left for the rest of the frame
   double pace;
-  // what has stopped it in this frame: contacts that a look may leave out, where many are
+  // what has stopped it in this frame: contacts that a look may leave out, where many are; and where
+  // its pivot was then
   size_t stop_count;
+  nsvcd__d3 stopped_at[NSVCD__MOST_STOPS];
   nsvcd_world_contact stops[NSVCD__MOST_STOPS];
   // what pushed in rounds before, and then all that there is at the pose now
   size_t kept, contact_count;
@@ -2385,6 +2401,28 @@ static nsvcd__d3 nsvcd__slip_of(const nsvcd__resident *r, nsvcd__d3 normal) {
   return nsvcd__d3_fma(-nsvcd__d3_dot(r->slips, normal), normal, r->slips);
 }
 
+// A contact as a body sees it whose pivot is there.
+static nsvcd__hold nsvcd__hold_at(const nsvcd_contact *c, nsvcd__d3 pivot) {
+  nsvcd__hold out;
+  memset(&out, 0, sizeof out);
+  out.normal = nsvcd__d3_load(c->normal);
+  const nsvcd__d3 own = nsvcd__d3_fma((double)c->gap, out.normal, nsvcd__d3_load(c->point));
+  out.arm = nsvcd__d3_sub(own, pivot);
+  return out;
+}
+
+// Forgets the stops that the body, whose pivot is there now, has left.
+static void nsvcd__forget_stops(nsvcd__slide *s, nsvcd__d3 pivot) {
+  size_t kept = 0;
+  for (size_t k = 0; k < s->stop_count; k++) {
+    const nsvcd__d3 gone = nsvcd__d3_sub(pivot, s->stopped_at[k]);
+    if (nsvcd__d3_dot(gone, nsvcd__d3_load(s->stops[k].contact.normal)) > s->margin) continue;
+    s->stopped_at[kept] = s->stopped_at[k];
+    s->stops[kept++] = s->stops[k];
+  }
+  s->stop_count = kept;
+}
+
 // Finds all contacts at the pose now, behind those that have pushed, and what they ask for.
 static void nsvcd__slide_look(nsvcd__slide *s) {
   const nsvcd__d3 pivot = nsvcd__pivot_at(s);
@@ -2392,8 +2430,12 @@ static void nsvcd__slide_look(nsvcd__slide *s) {
   const float within = (float)(s->clearance + 2 * s->margin);
   double flattest = s->is_on_edge ? NSVCD__EDGE_SLOPE : s->slope;
   size_t kept = 0;
-  for (size_t k = 0; k < s->contact_count; k++)
-    if (s->contacts[k].impulse > 0) s->contacts[kept++] = s->contacts[k];
+  nsvcd__forget_stops(s, pivot);
+  for (size_t k = 0; k < s->contact_count; k++) {
+    if (!(s->contacts[k].impulse > 0)) continue;
+    s->holds[kept] = s->holds[k];
+    s->contacts[kept++] = s->contacts[k];
+  }
   s->kept = kept < NSVCD_WORLD_CONTACTS / 2 ? kept : NSVCD_WORLD_CONTACTS / 2;
   const size_t room = NSVCD_WORLD_CONTACTS - s->kept - s->stop_count;
   memcpy(s->contacts + s->kept, s->stops, s->stop_count * sizeof *s->stops);
@@ -2405,13 +2447,11 @@ static void nsvcd__slide_look(nsvcd__slide *s) {
   for (size_t k = s->kept; k < s->contact_count; k++) {
     const nsvcd_contact *c = &s->contacts[k].contact;
     nsvcd__hold *h = &s->holds[k];
-    memset(h, 0, sizeof *h);
-    h->normal = nsvcd__d3_load(c->normal);
+    *h = nsvcd__hold_at(c, pivot);
     const nsvcd__d3 on_other = nsvcd__d3_load(c->point);
     const nsvcd__d3 driven = nsvcd__driven_speed(s, s->contacts[k].body, on_other);
     h->speed = nsvcd__d3_add(
         driven, nsvcd__slip_of(&s->ask.world->residents[s->contacts[k].body], h->normal));
-    h->arm = nsvcd__d3_sub(nsvcd__d3_fma((double)c->gap, h->normal, on_other), pivot);
     h->lacks = s->clearance + 0.5 * s->margin - (double)c->gap;
     h->least = nsvcd__min(s->clearance + s->margin - (double)c->gap, 0) / time;
     const double flat = nsvcd__d3_dot(h->normal, s->up);
@@ -2424,14 +2464,30 @@ static void nsvcd__slide_look(nsvcd__slide *s) {
 
 // Takes off the speed what points into contacts; what comes fast bounces.
 static void nsvcd__slide_respond(nsvcd__slide *s) {
+  const size_t count = s->contact_count - s->kept;
+  int is_driven = 0;
   for (size_t k = s->kept; k < s->contact_count; k++) {
     nsvcd__hold *h = &s->holds[k];
     const nsvcd__d3 speed = nsvcd__d3_sub(nsvcd__speed_at(&s->thing, h->arm), h->speed);
-    const double into = -nsvcd__d3_dot(speed, h->normal);
-    if (into > NSVCD__BOUNCES)
-      h->least = nsvcd__max(h->least, (double)s->given->restitution * into);
+    h->into = -nsvcd__d3_dot(speed, h->normal);
+    is_driven |= s->ask.world->residents[s->contacts[k].body].is_driven;
+    if (h->into > NSVCD__BOUNCES)
+      h->least = nsvcd__max(h->least, (double)s->given->restitution * h->into);
   }
-  nsvcd__respond(&s->thing, s->holds + s->kept, s->contact_count - s->kept, 0);
+  const nsvcd__thing came = s->thing;
+  nsvcd__respond(&s->thing, s->holds + s->kept, count, 0);
+  // bounces at several contacts at once may gain energy: then none bounces
+  if (s->given->restitution > 0 && !is_driven &&
+      nsvcd__energy_of(&s->thing) > NSVCD__BOUNCE_ENERGY * nsvcd__energy_of(&came)) {
+    s->thing = came;
+    for (size_t k = s->kept; k < s->contact_count; k++) {
+      nsvcd__hold *h = &s->holds[k];
+      h->least = nsvcd__min(h->least, 0);
+      h->pushed = 0;
+      h->rubbed = nsvcd__d3_of(0, 0, 0);
+    }
+    nsvcd__respond(&s->thing, s->holds + s->kept, count, 0);
+  }
   for (size_t k = s->kept; k < s->contact_count; k++)
     s->contacts[k].impulse = (float)s->holds[k].pushed;
 }
@@ -2471,6 +2527,7 @@ static double nsvcd__go(nsvcd__slide *s, const nsvcd_pose *to, int at_once) {
   const float *n = t.stop.normal;
   if (t.safe_by && n[0] * n[0] + n[1] * n[1] + n[2] * n[2] > 0.5f && !at_once &&
       s->stop_count < NSVCD__MOST_STOPS) {
+    s->stopped_at[s->stop_count] = nsvcd__pivot_at(s);
     s->stops[s->stop_count].body = t.safe_by;
     s->stops[s->stop_count].impulse = 0;
     s->stops[s->stop_count++].contact = t.stop;
@@ -2796,6 +2853,19 @@ static int nsvcd__rests_again(nsvcd__slide *s, float seconds, const nsvcd_veloci
   return 1;
 }
 
+// What rests again meets again what it met before.
+static void nsvcd__hold_again(const nsvcd__slide *s, const nsvcd_slide_answer *before,
+                              nsvcd__hold *holds) {
+  const nsvcd__d3 pivot = nsvcd__pivot_at(s);
+  for (size_t k = 0; k < before->contact_count && k < NSVCD_WORLD_CONTACTS; k++) {
+    nsvcd__hold *h = &holds[k];
+    *h = nsvcd__hold_at(&before->contacts[k].contact, pivot);
+    h->into = -nsvcd__d3_dot(nsvcd__speed_at(&s->thing, h->arm), h->normal);
+    h->give = nsvcd__give_of(&s->thing, h->arm, h->normal, &h->turn);
+    h->pushed = (double)before->contacts[k].impulse;
+  }
+}
+
 // A round: what is in contact, the speed that is left, and the way at that speed. Returns whether
 // there is to be another one.
 static int nsvcd__slide_round(nsvcd__slide *s, int is_first, int *rests) {
@@ -2843,10 +2913,12 @@ static void nsvcd__tell_slide(nsvcd__slide *s, nsvcd_velocity *velocity,
   out->work = s->ask.work;
 }
 
-NSVCDDEF nsvcd_result nsvcd_world_slide(nsvcd_world *world, size_t id,
-                                        const nsvcd_slide_options *options, float seconds,
-                                        void *workspace, size_t workspace_size,
-                                        nsvcd_velocity *velocity, nsvcd_slide_answer *answer) {
+// Slides, and tells what became of each contact of the answer when the body met it.
+static nsvcd_result nsvcd__slide_and_tell(nsvcd_world *world, size_t id,
+                                          const nsvcd_slide_options *options, float seconds,
+                                          void *workspace, size_t workspace_size,
+                                          nsvcd_velocity *velocity, nsvcd_slide_answer *answer,
+                                          nsvcd__hold *holds) {
   static const nsvcd_slide_options usual = {0, 0, 0, {0, 0, 0}, 0, 0, {0, 0, 0}, 0, 0, 0, 0};
   nsvcd__slide s;
   nsvcd_slide_answer out;
@@ -2861,6 +2933,7 @@ NSVCDDEF nsvcd_result nsvcd_world_slide(nsvcd_world *world, size_t id,
   out.given = *velocity;
   out.seconds = seconds;
   if (nsvcd__rests_again(&s, seconds, velocity, answer)) {
+    nsvcd__hold_again(&s, answer, holds);
     memset(velocity, 0, sizeof *velocity);
     answer->questions = answer->work = 0;
     return NSVCD_OK;
@@ -2900,8 +2973,18 @@ NSVCDDEF nsvcd_result nsvcd_world_slide(nsvcd_world *world, size_t id,
   out.clock = world->clock;
   out.slides = world->residents[id].slides;
   nsvcd__tell_slide(&s, velocity, &out);
+  memcpy(holds, s.holds, sizeof s.holds);
   *answer = out;
   return NSVCD_OK;
+}
+
+NSVCDDEF nsvcd_result nsvcd_world_slide(nsvcd_world *world, size_t id,
+                                        const nsvcd_slide_options *options, float seconds,
+                                        void *workspace, size_t workspace_size,
+                                        nsvcd_velocity *velocity, nsvcd_slide_answer *answer) {
+  nsvcd__hold holds[NSVCD_WORLD_CONTACTS];
+  return nsvcd__slide_and_tell(world, id, options, seconds, workspace, workspace_size,
+                               velocity, answer, holds);
 }
 
 // ---------------------------------------------------------------------------------- world/momentum
@@ -2918,8 +3001,8 @@ NSVCDDEF nsvcd_result nsvcd_world_slide(nsvcd_world *world, size_t id,
 // and if that were handed on, nothing would come to rest: what comes no faster than two frames of
 // gravity along the normal, or than twice `quiet`, holds. For a character only the first counts.
 //
-// A slide tells where it met what, not how it stood then. So in sum there may be more energy than
-// before: then all changes are halved until there is not, which keeps the momentum too.
+// A slide's friction, and contacts one after the other, may leave more energy in sum than before:
+// then of all changes as much is taken back, which keeps the momentum too.
 
 // of a change that would gain energy: less is none
 #define NSVCD__LEAST_SHARE 0.05
@@ -2969,17 +3052,16 @@ typedef struct nsvcd__momentum {
   nsvcd__thing things[NSVCD_WORLD_CONTACTS];
 } nsvcd__momentum;
 
-// A contact as one of its bodies sees it. It is told the point as it is on the other body.
-static nsvcd__hold nsvcd__hold_of(const nsvcd__crowd *crowd, size_t id,
-                                  const nsvcd__thing *thing, const nsvcd_contact *contact) {
+// A contact as the other body sees it.
+static nsvcd__hold nsvcd__hold_of_other(const nsvcd__crowd *crowd, size_t id,
+                                        const nsvcd__thing *thing,
+                                        const nsvcd_contact *contact) {
   const nsvcd__resident *r = &crowd->world->residents[id];
   const nsvcd__d3 pivot = nsvcd__pivot_of(&r->given.pose, r->shape.pivot);
   nsvcd__hold out;
   memset(&out, 0, sizeof out);
   out.normal = nsvcd__d3_load(contact->normal);
   out.arm = nsvcd__d3_sub(nsvcd__d3_load(contact->point), pivot);
-  // who has gone on since keeps its spin
-  if (nsvcd__d3_norm(out.arm) > 1.1 * r->shape.reach) out.arm = nsvcd__d3_of(0, 0, 0);
   out.give = nsvcd__give_of(thing, out.arm, out.normal, &out.turn);
   return out;
 }
@@ -2996,17 +3078,21 @@ static int nsvcd__takes_part(const nsvcd__crowd *crowd, const nsvcd_world_mover 
   const double least = m->how.mass > 0 ? 2 * crowd->quiet : 0;
   const double goes = -nsvcd__speed_along(came, &at->own);
   const double nears = goes + nsvcd__speed_along(thing, &at->other);
-  return nsvcd__max(goes, nears) > nsvcd__max(falls, least);
+  // what stopped where it was is part of a pile, unless it came fast
+  const int is_slow_rest = m->answer.rests && m->how.mass > 0;
+  return nsvcd__max(goes, nears) > (is_slow_rest ? 2 : 1) * nsvcd__max(falls, least);
 }
 
 // Finds the contacts that pushed in a slide, and who takes part in them.
 static void nsvcd__momentum_begin(const nsvcd__crowd *crowd, nsvcd_world_mover *m,
-                                  const nsvcd_velocity *velocity, nsvcd__momentum *p) {
+                                  const nsvcd_velocity *velocity, const nsvcd__hold *holds,
+                                  nsvcd__momentum *p) {
   const double mass = m->how.mass > 0 ? 1 : (double)m->push_mass;
   const nsvcd_pose *pose = &m->answer.pose;
   nsvcd__thing came = nsvcd__thing_of(&m->how, pose, velocity);
   p->thing = nsvcd__thing_of(&m->how, pose, &m->velocity);
   came.inverse_mass = p->thing.inverse_mass /= mass;
+  p->thing.inverse_inertia = nsvcd__d3_over(p->thing.inverse_inertia, mass);
   p->count = p->met_count = 0;
   for (size_t k = 0; k < m->answer.contact_count; k++) {
     nsvcd_world_contact *c = &m->answer.contacts[k];
@@ -3014,7 +3100,10 @@ static void nsvcd__momentum_begin(const nsvcd__crowd *crowd, nsvcd_world_mover *
     nsvcd__encounter *at = &p->encounters[p->count];
     if (!(c->impulse > 0)) continue;
     at->contact = c;
-    at->own = nsvcd__hold_of(crowd, m->id, &p->thing, &c->contact);
+    at->own = holds[k];
+    at->own.give /= mass;
+    at->own.turn = nsvcd__d3_over(at->own.turn, mass);
+    at->own.pushed = 0;
     at->own.least = nsvcd__min(nsvcd__speed_along(&p->thing, &at->own), 0);
     at->with = NSVCD_WORLD_CONTACTS;
     p->count++;
@@ -3026,13 +3115,12 @@ static void nsvcd__momentum_begin(const nsvcd__crowd *crowd, nsvcd_world_mover *
       p->things[j] = nsvcd__thing_of(&met->how, there, &met->velocity);
       p->things[j].linear = nsvcd__d3_sub(p->things[j].linear, p->frame);
     }
-    at->other = nsvcd__hold_of(crowd, met->id, &p->things[j], &c->contact);
+    at->other = nsvcd__hold_of_other(crowd, met->id, &p->things[j], &c->contact);
     if (!nsvcd__takes_part(crowd, m, &came, at, &p->things[j])) continue;
-    const double nears =
-        nsvcd__speed_along(&p->things[j], &at->other) - nsvcd__speed_along(&came, &at->own);
+    const double nears = at->own.into + nsvcd__speed_along(&p->things[j], &at->other);
     const int bounces = nears > NSVCD__BOUNCES;
     at->own.least = bounces ? (double)m->how.restitution * nears : 0;
-    at->own.pushed = mass * (double)c->impulse;
+    at->own.pushed = -mass * holds[k].pushed * (double)m->answer.spent;
     at->with = j;
     p->met[j] = met;
     if (j == p->met_count) p->met_count++;
@@ -3040,7 +3128,7 @@ static void nsvcd__momentum_begin(const nsvcd__crowd *crowd, nsvcd_world_mover *
 }
 
 // Gives those who take part their impulses, and corrects these. Returns by how much at most.
-static double nsvcd__momentum_round(nsvcd__momentum *p) {
+static double nsvcd__momentum_round(nsvcd__momentum *p, double *most) {
   double change = 0;
   for (size_t k = 0; k < p->count; k++) {
     nsvcd__encounter *at = &p->encounters[k];
@@ -3053,6 +3141,7 @@ static double nsvcd__momentum_round(nsvcd__momentum *p) {
     nsvcd__push(&p->thing, &at->own, more);
     if (other) nsvcd__push(other, &at->other, -more);
     change = nsvcd__max(change, fabs(more));
+    *most = nsvcd__max(*most, at->own.pushed);
   }
   return change;
 }
@@ -3070,16 +3159,6 @@ static void nsvcd__tell_velocity(const nsvcd__thing *thing, nsvcd_velocity *velo
 }
 
 // Joules.
-static double nsvcd__energy_of(const nsvcd__thing *thing) {
-  const nsvcd__d3 own = nsvcd__dmat3_apply_transpose(&thing->axes, thing->angular);
-  const nsvcd__d3 inverse = thing->inverse_inertia;
-  double twice = nsvcd__d3_dot(thing->linear, thing->linear) / thing->inverse_mass;
-  for (size_t k = 0; k < 3; k++) {
-    const double spin = nsvcd__d3_axis(own, k);
-    if (nsvcd__d3_axis(inverse, k) > 0) twice += spin * spin / nsvcd__d3_axis(inverse, k);
-  }
-  return 0.5 * twice;
-}
 static double nsvcd__energy_of_all(const nsvcd__momentum *p) {
   double out = nsvcd__energy_of(&p->thing);
   for (size_t j = 0; j < p->met_count; j++) out += nsvcd__energy_of(&p->things[j]);
@@ -3090,48 +3169,64 @@ static void nsvcd__set_velocity(nsvcd__thing *thing, const nsvcd_velocity *veloc
   thing->linear = nsvcd__d3_load(velocity->linear);
   thing->angular = nsvcd__d3_load(velocity->angular);
 }
-// Takes a speed half way back to what it was, in a frame.
-static void nsvcd__halve_change(nsvcd__thing *thing, const nsvcd_velocity *was,
-                                nsvcd__d3 frame) {
+// Takes a speed from what it was, in a frame, a share of the way to what it is.
+static void nsvcd__share_change(nsvcd__thing *thing, const nsvcd_velocity *was,
+                                nsvcd__d3 frame, double share) {
   const nsvcd__thing now = *thing;
   nsvcd__set_velocity(thing, was);
   thing->linear = nsvcd__d3_sub(thing->linear, frame);
-  thing->linear = nsvcd__d3_mix(thing->linear, now.linear, 0.5);
-  thing->angular = nsvcd__d3_mix(thing->angular, now.angular, 0.5);
+  thing->linear = nsvcd__d3_mix(thing->linear, now.linear, share);
+  thing->angular = nsvcd__d3_mix(thing->angular, now.angular, share);
+}
+static void nsvcd__share_all(nsvcd__momentum *p, const nsvcd_velocity *came, double share) {
+  nsvcd__share_change(&p->thing, came, nsvcd__d3_of(0, 0, 0), share);
+  for (size_t j = 0; j < p->met_count; j++)
+    nsvcd__share_change(&p->things[j], &p->met[j]->velocity, p->frame, share);
+}
+
+// Takes all changes back as far as there is more energy than before, which is a parabola over the
+// share that is left. Returns that.
+static double nsvcd__gain_nothing(nsvcd__momentum *p, const nsvcd_velocity *came,
+                                  double before) {
+  const double after = nsvcd__energy_of_all(p);
+  if (!(after > before)) return 1;
+  nsvcd__share_all(p, came, 0.5);
+  const double square = 2 * (before + after) - 4 * nsvcd__energy_of_all(p);
+  const double share = nsvcd__max(1 - (after - before) / square, 0);
+  nsvcd__share_all(p, came, 2 * share);
+  return share;
 }
 
 // A body has slid, and came at a speed, in a frame that moves at another: it and what it met share
 // their momentum.
 static void nsvcd__share_momentum(const nsvcd__crowd *crowd, nsvcd_world_mover *m,
-                                  const nsvcd_velocity *came, nsvcd__d3 frame) {
+                                  const nsvcd_velocity *came, nsvcd__d3 frame,
+                                  const nsvcd__hold *holds) {
   nsvcd__momentum p;
   double most = 0;
   double change = 1;
   const double mass = m->how.mass > 0 ? 1 : (double)m->push_mass;
-  if (!(mass > 0) || m->answer.rests) return;
+  if (!(mass > 0)) return;
   p.frame = frame;
-  nsvcd__momentum_begin(crowd, m, came, &p);
+  nsvcd__momentum_begin(crowd, m, came, holds, &p);
   if (p.met_count == 0) return;
   const nsvcd__thing slid = p.thing;
   nsvcd__set_velocity(&p.thing, came);
   const double energy = (1 + NSVCD__ENERGY_SAME) * nsvcd__energy_of_all(&p);
   p.thing = slid;
+  // what the slide gave is taken back, and found again
   for (size_t k = 0; k < p.count; k++) {
-    const nsvcd__encounter *at = &p.encounters[k];
-    most = nsvcd__max(most, at->own.pushed);
-    if (at->with < p.met_count) nsvcd__push(&p.things[at->with], &at->other, -at->own.pushed);
+    nsvcd__hold *own = &p.encounters[k].own;
+    nsvcd__push(&p.thing, own, own->pushed);
+    own->pushed = 0;
   }
   for (int round = 0; round < NSVCD__IMPULSE_ROUNDS && change > NSVCD__IMPULSE_SAME * most;
        round++)
-    change = nsvcd__momentum_round(&p);
-  double share = 1;
-  for (; nsvcd__energy_of_all(&p) > energy; share *= 0.5) {
-    if (share < NSVCD__LEAST_SHARE) return;
-    nsvcd__halve_change(&p.thing, came, nsvcd__d3_of(0, 0, 0));
-    for (size_t j = 0; j < p.met_count; j++)
-      nsvcd__halve_change(&p.things[j], &p.met[j]->velocity, frame);
-  }
+    change = nsvcd__momentum_round(&p, &most);
+  const double share = nsvcd__gain_nothing(&p, came, energy);
+  if (share < NSVCD__LEAST_SHARE) return;
   nsvcd__tell_velocity(&p.thing, &m->velocity);
+  m->answer.rests = 0;
   for (size_t k = 0; k < p.count; k++) {
     const nsvcd__encounter *at = &p.encounters[k];
     const double held = at->with < p.met_count ? 0 : (double)at->contact->impulse;
@@ -3562,15 +3657,17 @@ static nsvcd_result nsvcd__step_mover(const nsvcd__crowd *crowd, nsvcd_world_mov
   if (is_thing) nsvcd__add_carried(goes, turns, -1, &m->velocity);
   nsvcd__pull_and_brake(crowd, m);
   nsvcd_velocity came = m->velocity;
-  const nsvcd_result result = nsvcd_world_slide(crowd->world, m->id, &m->how, crowd->seconds,
-                                                workspace, size, &m->velocity, &m->answer);
+  nsvcd__hold holds[NSVCD_WORLD_CONTACTS];
+  const nsvcd_result result =
+      nsvcd__slide_and_tell(crowd->world, m->id, &m->how, crowd->seconds, workspace, size,
+                            &m->velocity, &m->answer, holds);
   if (result) {
     m->velocity = was;
     return result;
   }
   if (is_thing) nsvcd__add_carried(none, turns, 1, &came);
   if (is_thing) nsvcd__add_carried(none, turns, 1, &m->velocity);
-  nsvcd__share_momentum(crowd, m, &came, goes);
+  nsvcd__share_momentum(crowd, m, &came, goes, holds);
   r->slips = is_thing ? nsvcd__d3_load(m->velocity.linear) : none;
   if (is_thing) nsvcd__add_carried(goes, none, 1, &m->velocity);
   out->awake++;

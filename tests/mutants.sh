@@ -614,8 +614,12 @@ step: what is driven slides|if (m->asleep \|\| r->is_driven) return NSVCD_OK;|if
 step: driven for good|const nsvcd_result arrives = nsvcd_world_arrive(world);|const nsvcd_result arrives = NSVCD_OK;
 step: nobody sleeps|m->asleep = 1;|
 step: nothing is taken off|if (other) nsvcd__push(other, \&at->other, -more);|
-step: what is hit takes nothing|nsvcd__push(\&p.things[at->with], \&at->other, -at->own.pushed);|(void)0;
-step: energy from nowhere|for (; nsvcd__energy_of_all(\&p) > energy; share *= 0.5) {|for (; 0; share *= 0.5) {
+step: what a slide gave is given twice|nsvcd__push(\&p.thing, own, own->pushed);|(void)0;
+step: energy from nowhere|if (!(after > before)) return 1;|return 1;
+step: a half for too much energy|nsvcd__share_all(p, came, 2 * share);|(void)0;
+step: who rests pushes nothing|if (!(mass > 0)) return;|if (!(mass > 0) \|\| m->answer.rests) return;
+step: piles hand all on|const int is_slow_rest = m->answer.rests|const int is_slow_rest = 0 \&\& m->answer.rests
+step: bounces by where it has gone|at->own = holds[k];|at->own = nsvcd__hold_of_other(crowd, m->id, \&p->thing, \&c->contact);
 step: characters push nothing|came.inverse_mass = p->thing.inverse_mass /= mass;|came.inverse_mass = p->thing.inverse_mass;
 step: masses about the box|s.y + s.z, s.z + s.x, s.x + s.y|s.x + s.y, s.z + s.x, s.y + s.z
 step: open meshes are solids|if (nsvcd__d3_norm(off) > most * size) return 0;|

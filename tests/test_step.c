@@ -443,6 +443,47 @@ static void a_crowd_gains_no_energy(void) {
   }
 }
 
+static thing thing_ball(float radius) {
+  thing out;
+  memset(&out, 0, sizeof out);
+  CHECK_EQ(nsvcd_encode_sphere(radius, NULL, &out.body), NSVCD_OK);
+  return out;
+}
+
+// Two balls, or boxes face on, from distances and with clearances, one of them first: as on paper.
+static void two_movers_bounce(void) {
+  static const float masses[3][2] = {{1, 1}, {1, 10}, {10, 1}}, clearances[3] = {0, 0.002f, 0.006f};
+  for (int n = 0; n < 3 * 3 * 3 * 2 * 4 * 2; n++) {
+    stage s = stage_begin();
+    nsvcd_world_mover m[2];
+    const int order = n / 3 % 2, shape = n / 6 % 4, ia = order, ib = 1 - order;
+    const double e = 0.5 * (n / 24 % 3), aside = shape < 3 ? 0.05 * shape : 0;
+    const float *mass = masses[n / 72 % 3];
+    const double speed = n / 216 ? -2 : 0, at[2] = {0, 1.5 + 0.0071 * (n % 37)};
+    for (int k = 0; k < 2; k++) {
+      const int i = order ? 1 - k : k;
+      memset(&m[k], 0, sizeof m[k]);
+      m[k].id = stage_add(&s, shape < 3 ? thing_ball(0.2f) : thing_box(0.4, 0.4, 0.4),
+                          pose_of(at[i], i * aside, 0), 0);
+      m[k].how.mass = mass[i];
+      for (int j = 0; j < 3; j++) m[k].how.inertia[j] = mass[i] * 0.02f;
+      m[k].how.restitution = (float)e;
+      m[k].how.clearance = clearances[n % 3];
+      m[k].velocity.linear[0] = (float)(i ? speed : 5);
+    }
+    const double before = energy_of(m, 2);
+    for (int f = 0; f < 60; f++) step(&s, m, 2, &space);
+    const double sine = shape < 3 ? aside / (0.4 + 1.5 * (double)m[0].how.clearance) : 0;
+    const double shared = (double)mass[0] * (double)mass[1] / (double)(mass[0] + mass[1]);
+    const double push = shared * (1 + e) * (5 - speed) * (1 - sine * sine);
+    const double paper[2] = {5 - push / (double)mass[0], speed + push / (double)mass[1]};
+    CHECK_NEAR(m[ia].velocity.linear[0], paper[0], 0.03 * (5 - speed));
+    CHECK_NEAR(m[ib].velocity.linear[0], paper[1], 0.03 * (5 - speed));
+    CHECK_LE(energy_of(m, 2), before * (1 + 1e-5));
+    stage_end(&s);
+  }
+}
+
 // ---- sleep
 
 static void what_sleeps_wakes(void) {
@@ -517,6 +558,27 @@ static void a_character_pushes(void) {
     const double gone = (double)stage_pose(&s, m[1].id).position[0] - 1;
     if (kind) CHECK_GE(gone, 0.3);
     if (!kind) CHECK_EQ(gone, 0);
+    stage_end(&s);
+  }
+}
+
+// Wherever it starts, and whatever it and the crate keep between them.
+static void a_character_pushes_from_anywhere(void) {
+  static const float clearances[4] = {0, 0.002f, 0.01f, 0.02f};
+  for (int n = 0; n < 16 * 16; n++) {
+    stage s = stage_begin();
+    add_floor(&s);
+    nsvcd_world_mover m[2] = {add_cube(&s, -0.6 - 0.0041 * (n / 16), 0, 0.28, 0, 0),
+                              add_cube(&s, 0, 0, 0.28, 20, 1)};
+    m[0].how.up[2] = 1;
+    m[0].push_mass = 70;
+    for (int k = 0; k < 2; k++)
+      m[k].how.clearance = m[k].how.margin = clearances[k ? n % 4 : n / 4 % 4];
+    for (int f = 0; f < 60; f++) {
+      m[0].velocity.linear[0] = 1.5f;
+      step(&s, m, 2, n % 3 ? &earth : &space);
+    }
+    CHECK_GE(stage_pose(&s, m[1].id).position[0], 0.3);
     stage_end(&s);
   }
 }
@@ -705,10 +767,12 @@ void test_step(void) {
   RUN(what_lands_on_a_stack_rides);
   RUN(a_crowd_is_carried_about);
   RUN(two_share_their_momentum);
+  RUN(two_movers_bounce);
   RUN(a_crowd_gains_no_energy);
   RUN(what_sleeps_wakes);
   RUN(who_never_sleeps);
   RUN(a_character_pushes);
+  RUN(a_character_pushes_from_anywhere);
   RUN(who_is_driven_goes_there);
   RUN(any_order_is_safe);
   RUN(bad_steps_are_refused);

@@ -11,8 +11,8 @@
 // and if that were handed on, nothing would come to rest: what comes no faster than two frames of
 // gravity along the normal, or than twice `quiet`, holds. For a character only the first counts.
 //
-// A slide tells where it met what, not how it stood then. So in sum there may be more energy than
-// before: then all changes are halved until there is not, which keeps the momentum too.
+// A slide's friction, and contacts one after the other, may leave more energy in sum than before:
+// then of all changes as much is taken back, which keeps the momentum too.
 #pragma once
 #include "slide.h"
 
@@ -64,17 +64,16 @@ typedef struct nsvcd__momentum {
   nsvcd__thing things[NSVCD_WORLD_CONTACTS];
 } nsvcd__momentum;
 
-// A contact as one of its bodies sees it. It is told the point as it is on the other body.
-static nsvcd__hold nsvcd__hold_of(const nsvcd__crowd *crowd, size_t id,
-                                  const nsvcd__thing *thing, const nsvcd_contact *contact) {
+// A contact as the other body sees it.
+static nsvcd__hold nsvcd__hold_of_other(const nsvcd__crowd *crowd, size_t id,
+                                        const nsvcd__thing *thing,
+                                        const nsvcd_contact *contact) {
   const nsvcd__resident *r = &crowd->world->residents[id];
   const nsvcd__d3 pivot = nsvcd__pivot_of(&r->given.pose, r->shape.pivot);
   nsvcd__hold out;
   memset(&out, 0, sizeof out);
   out.normal = nsvcd__d3_load(contact->normal);
   out.arm = nsvcd__d3_sub(nsvcd__d3_load(contact->point), pivot);
-  // who has gone on since keeps its spin
-  if (nsvcd__d3_norm(out.arm) > 1.1 * r->shape.reach) out.arm = nsvcd__d3_of(0, 0, 0);
   out.give = nsvcd__give_of(thing, out.arm, out.normal, &out.turn);
   return out;
 }
@@ -91,17 +90,21 @@ static int nsvcd__takes_part(const nsvcd__crowd *crowd, const nsvcd_world_mover 
   const double least = m->how.mass > 0 ? 2 * crowd->quiet : 0;
   const double goes = -nsvcd__speed_along(came, &at->own);
   const double nears = goes + nsvcd__speed_along(thing, &at->other);
-  return nsvcd__max(goes, nears) > nsvcd__max(falls, least);
+  // what stopped where it was is part of a pile, unless it came fast
+  const int is_slow_rest = m->answer.rests && m->how.mass > 0;
+  return nsvcd__max(goes, nears) > (is_slow_rest ? 2 : 1) * nsvcd__max(falls, least);
 }
 
 // Finds the contacts that pushed in a slide, and who takes part in them.
 static void nsvcd__momentum_begin(const nsvcd__crowd *crowd, nsvcd_world_mover *m,
-                                  const nsvcd_velocity *velocity, nsvcd__momentum *p) {
+                                  const nsvcd_velocity *velocity, const nsvcd__hold *holds,
+                                  nsvcd__momentum *p) {
   const double mass = m->how.mass > 0 ? 1 : (double)m->push_mass;
   const nsvcd_pose *pose = &m->answer.pose;
   nsvcd__thing came = nsvcd__thing_of(&m->how, pose, velocity);
   p->thing = nsvcd__thing_of(&m->how, pose, &m->velocity);
   came.inverse_mass = p->thing.inverse_mass /= mass;
+  p->thing.inverse_inertia = nsvcd__d3_over(p->thing.inverse_inertia, mass);
   p->count = p->met_count = 0;
   for (size_t k = 0; k < m->answer.contact_count; k++) {
     nsvcd_world_contact *c = &m->answer.contacts[k];
@@ -109,7 +112,10 @@ static void nsvcd__momentum_begin(const nsvcd__crowd *crowd, nsvcd_world_mover *
     nsvcd__encounter *at = &p->encounters[p->count];
     if (!(c->impulse > 0)) continue;
     at->contact = c;
-    at->own = nsvcd__hold_of(crowd, m->id, &p->thing, &c->contact);
+    at->own = holds[k];
+    at->own.give /= mass;
+    at->own.turn = nsvcd__d3_over(at->own.turn, mass);
+    at->own.pushed = 0;
     at->own.least = nsvcd__min(nsvcd__speed_along(&p->thing, &at->own), 0);
     at->with = NSVCD_WORLD_CONTACTS;
     p->count++;
@@ -121,13 +127,12 @@ static void nsvcd__momentum_begin(const nsvcd__crowd *crowd, nsvcd_world_mover *
       p->things[j] = nsvcd__thing_of(&met->how, there, &met->velocity);
       p->things[j].linear = nsvcd__d3_sub(p->things[j].linear, p->frame);
     }
-    at->other = nsvcd__hold_of(crowd, met->id, &p->things[j], &c->contact);
+    at->other = nsvcd__hold_of_other(crowd, met->id, &p->things[j], &c->contact);
     if (!nsvcd__takes_part(crowd, m, &came, at, &p->things[j])) continue;
-    const double nears =
-        nsvcd__speed_along(&p->things[j], &at->other) - nsvcd__speed_along(&came, &at->own);
+    const double nears = at->own.into + nsvcd__speed_along(&p->things[j], &at->other);
     const int bounces = nears > NSVCD__BOUNCES;
     at->own.least = bounces ? (double)m->how.restitution * nears : 0;
-    at->own.pushed = mass * (double)c->impulse;
+    at->own.pushed = -mass * holds[k].pushed * (double)m->answer.spent;
     at->with = j;
     p->met[j] = met;
     if (j == p->met_count) p->met_count++;
@@ -135,7 +140,7 @@ static void nsvcd__momentum_begin(const nsvcd__crowd *crowd, nsvcd_world_mover *
 }
 
 // Gives those who take part their impulses, and corrects these. Returns by how much at most.
-static double nsvcd__momentum_round(nsvcd__momentum *p) {
+static double nsvcd__momentum_round(nsvcd__momentum *p, double *most) {
   double change = 0;
   for (size_t k = 0; k < p->count; k++) {
     nsvcd__encounter *at = &p->encounters[k];
@@ -148,6 +153,7 @@ static double nsvcd__momentum_round(nsvcd__momentum *p) {
     nsvcd__push(&p->thing, &at->own, more);
     if (other) nsvcd__push(other, &at->other, -more);
     change = nsvcd__max(change, fabs(more));
+    *most = nsvcd__max(*most, at->own.pushed);
   }
   return change;
 }
@@ -165,16 +171,6 @@ static void nsvcd__tell_velocity(const nsvcd__thing *thing, nsvcd_velocity *velo
 }
 
 // Joules.
-static double nsvcd__energy_of(const nsvcd__thing *thing) {
-  const nsvcd__d3 own = nsvcd__dmat3_apply_transpose(&thing->axes, thing->angular);
-  const nsvcd__d3 inverse = thing->inverse_inertia;
-  double twice = nsvcd__d3_dot(thing->linear, thing->linear) / thing->inverse_mass;
-  for (size_t k = 0; k < 3; k++) {
-    const double spin = nsvcd__d3_axis(own, k);
-    if (nsvcd__d3_axis(inverse, k) > 0) twice += spin * spin / nsvcd__d3_axis(inverse, k);
-  }
-  return 0.5 * twice;
-}
 static double nsvcd__energy_of_all(const nsvcd__momentum *p) {
   double out = nsvcd__energy_of(&p->thing);
   for (size_t j = 0; j < p->met_count; j++) out += nsvcd__energy_of(&p->things[j]);
@@ -185,48 +181,64 @@ static void nsvcd__set_velocity(nsvcd__thing *thing, const nsvcd_velocity *veloc
   thing->linear = nsvcd__d3_load(velocity->linear);
   thing->angular = nsvcd__d3_load(velocity->angular);
 }
-// Takes a speed half way back to what it was, in a frame.
-static void nsvcd__halve_change(nsvcd__thing *thing, const nsvcd_velocity *was,
-                                nsvcd__d3 frame) {
+// Takes a speed from what it was, in a frame, a share of the way to what it is.
+static void nsvcd__share_change(nsvcd__thing *thing, const nsvcd_velocity *was,
+                                nsvcd__d3 frame, double share) {
   const nsvcd__thing now = *thing;
   nsvcd__set_velocity(thing, was);
   thing->linear = nsvcd__d3_sub(thing->linear, frame);
-  thing->linear = nsvcd__d3_mix(thing->linear, now.linear, 0.5);
-  thing->angular = nsvcd__d3_mix(thing->angular, now.angular, 0.5);
+  thing->linear = nsvcd__d3_mix(thing->linear, now.linear, share);
+  thing->angular = nsvcd__d3_mix(thing->angular, now.angular, share);
+}
+static void nsvcd__share_all(nsvcd__momentum *p, const nsvcd_velocity *came, double share) {
+  nsvcd__share_change(&p->thing, came, nsvcd__d3_of(0, 0, 0), share);
+  for (size_t j = 0; j < p->met_count; j++)
+    nsvcd__share_change(&p->things[j], &p->met[j]->velocity, p->frame, share);
+}
+
+// Takes all changes back as far as there is more energy than before, which is a parabola over the
+// share that is left. Returns that.
+static double nsvcd__gain_nothing(nsvcd__momentum *p, const nsvcd_velocity *came,
+                                  double before) {
+  const double after = nsvcd__energy_of_all(p);
+  if (!(after > before)) return 1;
+  nsvcd__share_all(p, came, 0.5);
+  const double square = 2 * (before + after) - 4 * nsvcd__energy_of_all(p);
+  const double share = nsvcd__max(1 - (after - before) / square, 0);
+  nsvcd__share_all(p, came, 2 * share);
+  return share;
 }
 
 // A body has slid, and came at a speed, in a frame that moves at another: it and what it met share
 // their momentum.
 static void nsvcd__share_momentum(const nsvcd__crowd *crowd, nsvcd_world_mover *m,
-                                  const nsvcd_velocity *came, nsvcd__d3 frame) {
+                                  const nsvcd_velocity *came, nsvcd__d3 frame,
+                                  const nsvcd__hold *holds) {
   nsvcd__momentum p;
   double most = 0;
   double change = 1;
   const double mass = m->how.mass > 0 ? 1 : (double)m->push_mass;
-  if (!(mass > 0) || m->answer.rests) return;
+  if (!(mass > 0)) return;
   p.frame = frame;
-  nsvcd__momentum_begin(crowd, m, came, &p);
+  nsvcd__momentum_begin(crowd, m, came, holds, &p);
   if (p.met_count == 0) return;
   const nsvcd__thing slid = p.thing;
   nsvcd__set_velocity(&p.thing, came);
   const double energy = (1 + NSVCD__ENERGY_SAME) * nsvcd__energy_of_all(&p);
   p.thing = slid;
+  // what the slide gave is taken back, and found again
   for (size_t k = 0; k < p.count; k++) {
-    const nsvcd__encounter *at = &p.encounters[k];
-    most = nsvcd__max(most, at->own.pushed);
-    if (at->with < p.met_count) nsvcd__push(&p.things[at->with], &at->other, -at->own.pushed);
+    nsvcd__hold *own = &p.encounters[k].own;
+    nsvcd__push(&p.thing, own, own->pushed);
+    own->pushed = 0;
   }
   for (int round = 0; round < NSVCD__IMPULSE_ROUNDS && change > NSVCD__IMPULSE_SAME * most;
        round++)
-    change = nsvcd__momentum_round(&p);
-  double share = 1;
-  for (; nsvcd__energy_of_all(&p) > energy; share *= 0.5) {
-    if (share < NSVCD__LEAST_SHARE) return;
-    nsvcd__halve_change(&p.thing, came, nsvcd__d3_of(0, 0, 0));
-    for (size_t j = 0; j < p.met_count; j++)
-      nsvcd__halve_change(&p.things[j], &p.met[j]->velocity, frame);
-  }
+    change = nsvcd__momentum_round(&p, &most);
+  const double share = nsvcd__gain_nothing(&p, came, energy);
+  if (share < NSVCD__LEAST_SHARE) return;
   nsvcd__tell_velocity(&p.thing, &m->velocity);
+  m->answer.rests = 0;
   for (size_t k = 0; k < p.count; k++) {
     const nsvcd__encounter *at = &p.encounters[k];
     const double held = at->with < p.met_count ? 0 : (double)at->contact->impulse;

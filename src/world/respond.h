@@ -26,8 +26,8 @@ typedef struct nsvcd__hold {
   nsvcd__d3 speed;
   // metres: how much nearer it is than half a margin beyond the clearance; below 0: farther
   double lacks;
-  // metres a second, along the normal: at least
-  double least;
+  // metres a second, along the normal: at least; and how fast the body came against it
+  double least, into;
   // what a unit impulse along the normal changes: the speed there, and the spin
   double give;
   nsvcd__d3 turn;
@@ -115,6 +115,18 @@ static void nsvcd__respond(nsvcd__thing *thing, nsvcd__hold *holds, size_t count
       most = nsvcd__max(most, holds[k].pushed);
     }
   }
+}
+
+// Joules.
+static double nsvcd__energy_of(const nsvcd__thing *thing) {
+  const nsvcd__d3 own = nsvcd__dmat3_apply_transpose(&thing->axes, thing->angular);
+  const nsvcd__d3 inverse = thing->inverse_inertia;
+  double twice = nsvcd__d3_dot(thing->linear, thing->linear) / thing->inverse_mass;
+  for (size_t k = 0; k < 3; k++) {
+    const double spin = nsvcd__d3_axis(own, k);
+    if (nsvcd__d3_axis(inverse, k) > 0) twice += spin * spin / nsvcd__d3_axis(inverse, k);
+  }
+  return 0.5 * twice;
 }
 
 // How fast a body is to go so that it is half a margin off everything: a share of what each contact

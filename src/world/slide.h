@@ -118,6 +118,19 @@ static int nsvcd__rests_again(nsvcd__slide *s, float seconds, const nsvcd_veloci
   return 1;
 }
 
+// What rests again meets again what it met before.
+static void nsvcd__hold_again(const nsvcd__slide *s, const nsvcd_slide_answer *before,
+                              nsvcd__hold *holds) {
+  const nsvcd__d3 pivot = nsvcd__pivot_at(s);
+  for (size_t k = 0; k < before->contact_count && k < NSVCD_WORLD_CONTACTS; k++) {
+    nsvcd__hold *h = &holds[k];
+    *h = nsvcd__hold_at(&before->contacts[k].contact, pivot);
+    h->into = -nsvcd__d3_dot(nsvcd__speed_at(&s->thing, h->arm), h->normal);
+    h->give = nsvcd__give_of(&s->thing, h->arm, h->normal, &h->turn);
+    h->pushed = (double)before->contacts[k].impulse;
+  }
+}
+
 // A round: what is in contact, the speed that is left, and the way at that speed. Returns whether
 // there is to be another one.
 static int nsvcd__slide_round(nsvcd__slide *s, int is_first, int *rests) {
@@ -165,10 +178,12 @@ static void nsvcd__tell_slide(nsvcd__slide *s, nsvcd_velocity *velocity,
   out->work = s->ask.work;
 }
 
-NSVCDDEF nsvcd_result nsvcd_world_slide(nsvcd_world *world, size_t id,
-                                        const nsvcd_slide_options *options, float seconds,
-                                        void *workspace, size_t workspace_size,
-                                        nsvcd_velocity *velocity, nsvcd_slide_answer *answer) {
+// Slides, and tells what became of each contact of the answer when the body met it.
+static nsvcd_result nsvcd__slide_and_tell(nsvcd_world *world, size_t id,
+                                          const nsvcd_slide_options *options, float seconds,
+                                          void *workspace, size_t workspace_size,
+                                          nsvcd_velocity *velocity, nsvcd_slide_answer *answer,
+                                          nsvcd__hold *holds) {
   static const nsvcd_slide_options usual = {0, 0, 0, {0, 0, 0}, 0, 0, {0, 0, 0}, 0, 0, 0, 0};
   nsvcd__slide s;
   nsvcd_slide_answer out;
@@ -183,6 +198,7 @@ NSVCDDEF nsvcd_result nsvcd_world_slide(nsvcd_world *world, size_t id,
   out.given = *velocity;
   out.seconds = seconds;
   if (nsvcd__rests_again(&s, seconds, velocity, answer)) {
+    nsvcd__hold_again(&s, answer, holds);
     memset(velocity, 0, sizeof *velocity);
     answer->questions = answer->work = 0;
     return NSVCD_OK;
@@ -222,6 +238,16 @@ NSVCDDEF nsvcd_result nsvcd_world_slide(nsvcd_world *world, size_t id,
   out.clock = world->clock;
   out.slides = world->residents[id].slides;
   nsvcd__tell_slide(&s, velocity, &out);
+  memcpy(holds, s.holds, sizeof s.holds);
   *answer = out;
   return NSVCD_OK;
+}
+
+NSVCDDEF nsvcd_result nsvcd_world_slide(nsvcd_world *world, size_t id,
+                                        const nsvcd_slide_options *options, float seconds,
+                                        void *workspace, size_t workspace_size,
+                                        nsvcd_velocity *velocity, nsvcd_slide_answer *answer) {
+  nsvcd__hold holds[NSVCD_WORLD_CONTACTS];
+  return nsvcd__slide_and_tell(world, id, options, seconds, workspace, workspace_size,
+                               velocity, answer, holds);
 }

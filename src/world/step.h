@@ -205,15 +205,17 @@ static nsvcd_result nsvcd__step_mover(const nsvcd__crowd *crowd, nsvcd_world_mov
   if (is_thing) nsvcd__add_carried(goes, turns, -1, &m->velocity);
   nsvcd__pull_and_brake(crowd, m);
   nsvcd_velocity came = m->velocity;
-  const nsvcd_result result = nsvcd_world_slide(crowd->world, m->id, &m->how, crowd->seconds,
-                                                workspace, size, &m->velocity, &m->answer);
+  nsvcd__hold holds[NSVCD_WORLD_CONTACTS];
+  const nsvcd_result result =
+      nsvcd__slide_and_tell(crowd->world, m->id, &m->how, crowd->seconds, workspace, size,
+                            &m->velocity, &m->answer, holds);
   if (result) {
     m->velocity = was;
     return result;
   }
   if (is_thing) nsvcd__add_carried(none, turns, 1, &came);
   if (is_thing) nsvcd__add_carried(none, turns, 1, &m->velocity);
-  nsvcd__share_momentum(crowd, m, &came, goes);
+  nsvcd__share_momentum(crowd, m, &came, goes, holds);
   r->slips = is_thing ? nsvcd__d3_load(m->velocity.linear) : none;
   if (is_thing) nsvcd__add_carried(goes, none, 1, &m->velocity);
   out->awake++;

@@ -22,6 +22,8 @@
 // of the margin: a way in which no point goes farther is none for what rubs against something
 #define NSVCD__STILL 0.05
 #define NSVCD__MOST_STOPS 4
+// of the energy before: more than impulses leave that have not converged
+#define NSVCD__BOUNCE_ENERGY 1.001
 // radians: the most that a body turns in a way
 #define NSVCD__MOST_TURN 2.0
 
@@ -47,8 +49,10 @@ typedef struct nsvcd__slide {
   size_t met;
   // a character's: of its speed, that is left for the rest of the frame
   double pace;
-  // what has stopped it in this frame: contacts that a look may leave out, where many are
+  // what has stopped it in this frame: contacts that a look may leave out, where many are; and where
+  // its pivot was then
   size_t stop_count;
+  nsvcd__d3 stopped_at[NSVCD__MOST_STOPS];
   nsvcd_world_contact stops[NSVCD__MOST_STOPS];
   // what pushed in rounds before, and then all that there is at the pose now
   size_t kept, contact_count;
@@ -92,6 +96,28 @@ static nsvcd__d3 nsvcd__slip_of(const nsvcd__resident *r, nsvcd__d3 normal) {
   return nsvcd__d3_fma(-nsvcd__d3_dot(r->slips, normal), normal, r->slips);
 }
 
+// A contact as a body sees it whose pivot is there.
+static nsvcd__hold nsvcd__hold_at(const nsvcd_contact *c, nsvcd__d3 pivot) {
+  nsvcd__hold out;
+  memset(&out, 0, sizeof out);
+  out.normal = nsvcd__d3_load(c->normal);
+  const nsvcd__d3 own = nsvcd__d3_fma((double)c->gap, out.normal, nsvcd__d3_load(c->point));
+  out.arm = nsvcd__d3_sub(own, pivot);
+  return out;
+}
+
+// Forgets the stops that the body, whose pivot is there now, has left.
+static void nsvcd__forget_stops(nsvcd__slide *s, nsvcd__d3 pivot) {
+  size_t kept = 0;
+  for (size_t k = 0; k < s->stop_count; k++) {
+    const nsvcd__d3 gone = nsvcd__d3_sub(pivot, s->stopped_at[k]);
+    if (nsvcd__d3_dot(gone, nsvcd__d3_load(s->stops[k].contact.normal)) > s->margin) continue;
+    s->stopped_at[kept] = s->stopped_at[k];
+    s->stops[kept++] = s->stops[k];
+  }
+  s->stop_count = kept;
+}
+
 // Finds all contacts at the pose now, behind those that have pushed, and what they ask for.
 static void nsvcd__slide_look(nsvcd__slide *s) {
   const nsvcd__d3 pivot = nsvcd__pivot_at(s);
@@ -99,8 +125,12 @@ static void nsvcd__slide_look(nsvcd__slide *s) {
   const float within = (float)(s->clearance + 2 * s->margin);
   double flattest = s->is_on_edge ? NSVCD__EDGE_SLOPE : s->slope;
   size_t kept = 0;
-  for (size_t k = 0; k < s->contact_count; k++)
-    if (s->contacts[k].impulse > 0) s->contacts[kept++] = s->contacts[k];
+  nsvcd__forget_stops(s, pivot);
+  for (size_t k = 0; k < s->contact_count; k++) {
+    if (!(s->contacts[k].impulse > 0)) continue;
+    s->holds[kept] = s->holds[k];
+    s->contacts[kept++] = s->contacts[k];
+  }
   s->kept = kept < NSVCD_WORLD_CONTACTS / 2 ? kept : NSVCD_WORLD_CONTACTS / 2;
   const size_t room = NSVCD_WORLD_CONTACTS - s->kept - s->stop_count;
   memcpy(s->contacts + s->kept, s->stops, s->stop_count * sizeof *s->stops);
@@ -112,13 +142,11 @@ static void nsvcd__slide_look(nsvcd__slide *s) {
   for (size_t k = s->kept; k < s->contact_count; k++) {
     const nsvcd_contact *c = &s->contacts[k].contact;
     nsvcd__hold *h = &s->holds[k];
-    memset(h, 0, sizeof *h);
-    h->normal = nsvcd__d3_load(c->normal);
+    *h = nsvcd__hold_at(c, pivot);
     const nsvcd__d3 on_other = nsvcd__d3_load(c->point);
     const nsvcd__d3 driven = nsvcd__driven_speed(s, s->contacts[k].body, on_other);
     h->speed = nsvcd__d3_add(
         driven, nsvcd__slip_of(&s->ask.world->residents[s->contacts[k].body], h->normal));
-    h->arm = nsvcd__d3_sub(nsvcd__d3_fma((double)c->gap, h->normal, on_other), pivot);
     h->lacks = s->clearance + 0.5 * s->margin - (double)c->gap;
     h->least = nsvcd__min(s->clearance + s->margin - (double)c->gap, 0) / time;
     const double flat = nsvcd__d3_dot(h->normal, s->up);
@@ -131,14 +159,30 @@ static void nsvcd__slide_look(nsvcd__slide *s) {
 
 // Takes off the speed what points into contacts; what comes fast bounces.
 static void nsvcd__slide_respond(nsvcd__slide *s) {
+  const size_t count = s->contact_count - s->kept;
+  int is_driven = 0;
   for (size_t k = s->kept; k < s->contact_count; k++) {
     nsvcd__hold *h = &s->holds[k];
     const nsvcd__d3 speed = nsvcd__d3_sub(nsvcd__speed_at(&s->thing, h->arm), h->speed);
-    const double into = -nsvcd__d3_dot(speed, h->normal);
-    if (into > NSVCD__BOUNCES)
-      h->least = nsvcd__max(h->least, (double)s->given->restitution * into);
+    h->into = -nsvcd__d3_dot(speed, h->normal);
+    is_driven |= s->ask.world->residents[s->contacts[k].body].is_driven;
+    if (h->into > NSVCD__BOUNCES)
+      h->least = nsvcd__max(h->least, (double)s->given->restitution * h->into);
   }
-  nsvcd__respond(&s->thing, s->holds + s->kept, s->contact_count - s->kept, 0);
+  const nsvcd__thing came = s->thing;
+  nsvcd__respond(&s->thing, s->holds + s->kept, count, 0);
+  // bounces at several contacts at once may gain energy: then none bounces
+  if (s->given->restitution > 0 && !is_driven &&
+      nsvcd__energy_of(&s->thing) > NSVCD__BOUNCE_ENERGY * nsvcd__energy_of(&came)) {
+    s->thing = came;
+    for (size_t k = s->kept; k < s->contact_count; k++) {
+      nsvcd__hold *h = &s->holds[k];
+      h->least = nsvcd__min(h->least, 0);
+      h->pushed = 0;
+      h->rubbed = nsvcd__d3_of(0, 0, 0);
+    }
+    nsvcd__respond(&s->thing, s->holds + s->kept, count, 0);
+  }
   for (size_t k = s->kept; k < s->contact_count; k++)
     s->contacts[k].impulse = (float)s->holds[k].pushed;
 }
@@ -178,6 +222,7 @@ static double nsvcd__go(nsvcd__slide *s, const nsvcd_pose *to, int at_once) {
   const float *n = t.stop.normal;
   if (t.safe_by && n[0] * n[0] + n[1] * n[1] + n[2] * n[2] > 0.5f && !at_once &&
       s->stop_count < NSVCD__MOST_STOPS) {
+    s->stopped_at[s->stop_count] = nsvcd__pivot_at(s);
     s->stops[s->stop_count].body = t.safe_by;
     s->stops[s->stop_count].impulse = 0;
     s->stops[s->stop_count++].contact = t.stop;
