@@ -618,6 +618,75 @@ static void round_feet_climb_kerbs(void) {
   }
 }
 
+// A capsule of 1.8 m, 30 cm around an axis, which a needle is for the oracle.
+#define AROUND 0.3
+static thing thing_capsule(void) {
+  const float low[3] = {0, 0, -0.6f};
+  const float high[3] = {0, 0, 0.6f};
+  thing out = thing_box(1e-5, 1e-5, 1.2);
+  nsvcd_body_free(out.body, NULL);
+  CHECK_EQ(nsvcd_encode_capsule(low, high, (float)AROUND, NULL, &out.body), NSVCD_OK);
+  return out;
+}
+// Four stairs along x from 0 on, of one body or of four, and a landing as high as they.
+static void add_stairs(stage *s, double rise, double run, int is_one) {
+  shapes_mesh shape;
+  memset(&shape, 0, sizeof shape);
+  for (int k = 1; k <= 4; k++) {
+    const double deep = k < 4 ? run : 3;
+    const double x = run * (k - 1) + 0.5 * deep;
+    if (is_one) shapes_box_at(&shape, x, 0, 0.5 * rise * k, deep, 2, rise * k);
+    if (!is_one)
+      stage_add(s, thing_box(deep, 2, rise * k), pose_of(x, 0, 0.5 * rise * k), 1);
+  }
+  if (is_one) stage_add(s, thing_of(&shape), pose_of(0, 0, 0), 1);
+}
+// Walks towards +x for so many metres, and a tenth more.
+static actor walks_to_stairs(stage *s, double step, float speed, double metres) {
+  const size_t id = stage_add(s, thing_capsule(), pose_of(-0.6, 0, 0.906), 0);
+  actor a = character_of(s, id, (float)step);
+  a.options.clearance = a.options.margin = 0;
+  const int frames = (int)(1.1 * metres * 60 / (double)speed);
+  for (int f = 0; f < frames; f++) {
+    a.velocity.linear[0] = speed;
+    a.velocity.linear[2] -= gravity;
+    slide(&a);
+    if (f % 8 == 7) CHECK_GE(stage_apart(s, id), AROUND + 0.0045 - 1e-4);
+  }
+  return a;
+}
+// However much higher than its stairs the step is, and wherever the next stair meets the capsule first.
+static void climbs_stairs_by_any_step(void) {
+  static const double runs[5] = {0.2, 0.25, 0.3, 0.4, 0.6};
+  for (int n = 0; n < 90; n++) {
+    const double rise = 0.1 * (1 + n % 3);
+    const double run = runs[n / 3 % 5];
+    const double step = rise + 0.02 + (2 * rise - 0.02) * (n % 7) / 6;
+    const float speed = (float)(1 << n / 15 % 3);
+    stage s = stage_begin();
+    add_floor(&s);
+    add_stairs(&s, rise, run, n / 45);
+    const actor a = walks_to_stairs(&s, step, speed, 3 * run + 1);
+    CHECK_GE(place(&a, 0), 3 * run + 0.3);
+    CHECK_NEAR(place(&a, 2), 4 * rise + 0.9 + 0.008, 0.004);
+    stage_end(&s);
+  }
+}
+// A kerb lower than 9 cm is a ground to its feet.
+static void stops_at_what_is_higher_than_its_step(void) {
+  static const double steps[4] = {0.1, 0.2, 0.3, 0.6};
+  for (int n = 0; n < 16; n++) {
+    stage s = stage_begin();
+    const double high = steps[n % 4] + 0.02;
+    add_floor(&s);
+    stage_add(&s, thing_box(2, 2, high), pose_of(1, 0, 0.5 * high), 1);
+    const actor a = walks_to_stairs(&s, steps[n % 4], (float)(1 << n / 4), 1.5);
+    CHECK_LE(place(&a, 0), -0.2);
+    CHECK_LE(place(&a, 2), 0.95);
+    stage_end(&s);
+  }
+}
+
 static void walks_on_an_elevator(void) {
   stage s = stage_begin();
   const size_t lift = add_floor(&s);
@@ -911,6 +980,8 @@ void test_slide(void) {
   RUN(does_not_rise_along_a_steep_slope);
   RUN(does_not_step_below_a_low_ceiling);
   RUN(round_feet_climb_kerbs);
+  RUN(climbs_stairs_by_any_step);
+  RUN(stops_at_what_is_higher_than_its_step);
   RUN(walks_on_an_elevator);
   RUN(climbs_on_a_train);
   RUN(between_two_movers);

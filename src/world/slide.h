@@ -138,8 +138,9 @@ static int nsvcd__slide_round(nsvcd__slide *s, int is_first, int *rests) {
   s->is_on_edge = 0;
   nsvcd__slide_look(s);
   nsvcd__ride(s);
-  if (nsvcd__is_before_step(s)) {
-    nsvcd__climb(s);
+  const nsvcd_world_contact *before = nsvcd__step_before(s);
+  if (before) {
+    nsvcd__climb(s, before);
     nsvcd__ride(s);
   }
   nsvcd__stand(s);

@@ -51,24 +51,64 @@ static void nsvcd__stand(nsvcd__slide *s) {
   nsvcd__meet_walls(s);
 }
 
-// Round feet meet the edge of a step long before they are above it. It is one if a step farther on
-// there is ground, no higher than a step. Moves the body there, or wherever it gets to.
-static int nsvcd__is_edge_of_step(nsvcd__slide *s) {
+// How high the lowest corner of its box is.
+static double nsvcd__sole(const nsvcd__slide *s) {
+  const nsvcd__shape_box *box = &s->ask.shape;
+  const nsvcd__dpose at = nsvcd__dpose_of(&s->pose);
+  const nsvcd__dtransform place = nsvcd__dtransform_of(&at);
+  const nsvcd__d3 up = nsvcd__dmat3_apply_transpose(&place.rotation, s->up);
+  const nsvcd__d3 high = nsvcd__d3_of(fabs(up.x), fabs(up.y), fabs(up.z));
+  return nsvcd__d3_dot(nsvcd__d3_transform(&place, box->centre), s->up) -
+         nsvcd__d3_dot(high, box->half);
+}
+
+static double nsvcd__height_of(const nsvcd__slide *s, const nsvcd_world_contact *c) {
+  return nsvcd__d3_dot(nsvcd__d3_load(c->contact.point), s->up);
+}
+
+// Does it stand, no higher than a step above where it began to climb?
+static int nsvcd__is_on_step(const nsvcd__slide *s) {
+  return s->ground && nsvcd__height_of(s, s->ground) <= s->floor + (double)s->given->step;
+}
+
+// Round feet meet the edge of a step long before they are above it. It is one if there is ground, no
+// higher than a step, as soon as it is so far below them that it bears them: they come no farther
+// where the next edge is before them. A ball's contact tells how far that is, of which the feet are
+// taken for a part: at cosines between that of a ground and 1. Moves the body there, or wherever it
+// gets to.
+static int nsvcd__is_edge_of_step(nsvcd__slide *s, nsvcd__d3 normal, double high) {
+  static const double parts[2] = {0.1, 0.5};
   const double step = (double)s->given->step;
-  const nsvcd__d3 walks = nsvcd__flat_part(s, nsvcd__d3_sub(s->thing.linear, s->ridden));
-  const nsvcd__d3 way = nsvcd__d3_scale(walks, step / nsvcd__d3_norm(walks));
+  const double gap = 2 * (s->clearance + 2 * s->margin);
+  const nsvcd__d3 flat = nsvcd__flat_part(s, normal);
+  const double lies = nsvcd__d3_norm(flat);
+  const double ball = high / (1 - nsvcd__d3_dot(normal, s->up));
+  const double radius = nsvcd__min(ball, s->ask.shape.reach);
   const double risen = step * nsvcd__go_by(s, nsvcd__d3_scale(s->up, step));
-  const double gone = nsvcd__go_by(s, way);
-  (void)nsvcd__go_by(s, nsvcd__d3_scale(s->up, -risen - s->margin));
-  nsvcd__slide_look(s);
-  return gone >= 1 && s->ground;
+  double along = 0;
+  for (int k = 0; k < 2; k++) {
+    const double bears = s->slope + parts[k] * (1 - s->slope);
+    const double by = gap + radius * (lies - sqrt(1 - bears * bears));
+    if (nsvcd__go_by(s, nsvcd__d3_scale(flat, (along - by) / lies)) < 1) return 0;
+    along = by;
+    const nsvcd_pose above = s->pose;
+    (void)nsvcd__go_by(s, nsvcd__d3_scale(s->up, -risen - s->margin));
+    nsvcd__slide_look(s);
+    if (nsvcd__is_on_step(s)) return 1;
+    s->pose = above;
+  }
+  return 0;
 }
 
 // Onto a step, or its edge, if there is one: up, along, and down again. What has been gone of the
 // way is not gone again.
-static void nsvcd__climb(nsvcd__slide *s) {
+static void nsvcd__climb(nsvcd__slide *s, const nsvcd_world_contact *before) {
   const double step = (double)s->given->step;
   const nsvcd_pose start = s->pose;
+  const double sole = nsvcd__sole(s);
+  const nsvcd__d3 normal = nsvcd__d3_load(before->contact.normal);
+  const double edge = nsvcd__height_of(s, before);
+  s->floor = s->ground ? nsvcd__height_of(s, s->ground) : sole;
   const double time = s->left * s->seconds * s->pace;
   const nsvcd__d3 own = nsvcd__d3_sub(s->thing.linear, s->ridden);
   const nsvcd__d3 way = nsvcd__d3_scale(nsvcd__flat_part(s, own), time);
@@ -79,13 +119,14 @@ static void nsvcd__climb(nsvcd__slide *s) {
   const nsvcd_pose above = s->pose;
   int is_up = dropped < risen - s->margin && gone > 0;
   if (is_up) nsvcd__slide_look(s);
-  if (dropped < risen && gone > 0 && !(is_up && s->ground)) {
+  if (dropped < risen && gone > 0 && !(is_up && nsvcd__is_on_step(s)) &&
+      edge <= s->floor + step) {
     s->pose = start;
-    is_up = s->is_on_edge = nsvcd__is_edge_of_step(s);
+    is_up = s->is_on_edge = nsvcd__is_edge_of_step(s, normal, edge - sole);
     s->pose = above;
     if (is_up) nsvcd__slide_look(s);
   }
-  if (is_up && s->ground) {
+  if (is_up && nsvcd__is_on_step(s)) {
     s->pace *= 1 - gone;
     return;
   }
@@ -112,16 +153,19 @@ static void nsvcd__stop_climbing(nsvcd__slide *s) {
   s->thing.linear = nsvcd__d3_fma(-up, s->up, s->thing.linear);
 }
 
-// Is there something too steep to stand on in the way of whoever stands, or is on an edge?
-static int nsvcd__is_before_step(const nsvcd__slide *s) {
+// The lowest of what is too steep to stand on in the way of whoever stands, or is on an edge; or none.
+static const nsvcd_world_contact *nsvcd__step_before(const nsvcd__slide *s) {
   const nsvcd__d3 walks = nsvcd__flat_part(s, nsvcd__d3_sub(s->thing.linear, s->ridden));
-  if (!(s->given->step > 0) || s->jumps) return 0;
+  const nsvcd_world_contact *out = NULL;
+  if (!(s->given->step > 0) || s->jumps) return NULL;
   for (size_t k = s->kept; k < s->contact_count; k++) {
+    const nsvcd_world_contact *c = &s->contacts[k];
     const nsvcd__d3 n = s->holds[k].normal;
     const double rise = nsvcd__d3_dot(n, s->up);
     const double into = -nsvcd__d3_dot(walks, n);
     if (!s->ground && !(rise > NSVCD__EDGE_SLOPE)) continue;
-    if (rise > -0.01 && rise < s->slope && into > 0.05 * nsvcd__d3_norm(walks)) return 1;
+    if (!(rise > -0.01 && rise < s->slope && into > 0.05 * nsvcd__d3_norm(walks))) continue;
+    if (!out || nsvcd__height_of(s, c) < nsvcd__height_of(s, out)) out = c;
   }
-  return 0;
+  return out;
 }

@@ -45,6 +45,8 @@ typedef struct nsvcd__slide {
   int jumps;
   // the speed of what it rides on; and the speed besides its own with which it leaves what is near
   nsvcd__d3 ridden, leaves;
+  // how high is what it stands on, or its sole, as it begins to climb
+  double floor;
   // what its last way met first; or nobody
   size_t met;
   // a character's: of its speed, that is left for the rest of the frame
