@@ -12,6 +12,7 @@ import subprocess
 import sys
 import tempfile
 import unittest
+import warnings
 from contextlib import redirect_stdout
 from pathlib import Path
 
@@ -255,6 +256,71 @@ class Poses(unittest.TestCase):
             with self.assertRaises(Error) as raised:
                 nsvcd.sweep(mug, rack, paths, times_a=times, threads=threads)
             self.assertEqual((raised.exception.code, raised.exception.index), (Code.TIMES, 700))
+
+
+class Rounding(unittest.TestCase):
+    """Poses are rounded to float32: where that moves them far, it is said."""
+    BOX = Mesh.box([0.1, 0.1, 0.1])
+    A = np.array([500000.014, 300000, 100, 0, 0, 0, 1])
+    B = A + [0.096, 0, 0, 0, 0, 0, 0]  # they overlap by 4 mm
+    ORIGIN = np.array([500000, 300000, 100, 0, 0, 0, 0])
+
+    def setUp(self) -> None:
+        self.box = Body(self.BOX)
+
+    def asked(self, a: np.ndarray, b: np.ndarray) -> dict[str, str]:
+        """What is warned of, by what is asked."""
+        world, robot = nsvcd.World(3), nsvcd.Robot([nsvcd.Joint(0)], [nsvcd.Part(self.box, 1)])
+        id, at_origin = world.add(self.box, np.float32(a)), np.zeros(7) + IDENTITY
+        proof = nsvcd.certify(self.BOX, self.BOX, np.float32([at_origin + [9, 0, 0, 0, 0, 0, 0]]))
+        many = np.stack([[b, b]] * 5)
+        part, latents = nsvcd.Part(self.box, 1), Body(self.BOX, latents=True)
+        asks = {
+            "sweep": lambda: nsvcd.sweep(self.box, self.box, a, b), "of lists": lambda: nsvcd.sweep(self.box, self.box, a.tolist(), b.tolist()),
+            "many": lambda: nsvcd.sweep(self.box, self.box, None, many), "large": lambda: nsvcd.sweep(Body.box([999, 999, 999]), self.box, a),
+            "small": lambda: nsvcd.sweep(self.box, Body.box([999, 999, 999]), None, a, scale_a=0.5),
+            "contacts": lambda: nsvcd.contacts(self.box, self.box, a, clearance=0.01),
+            "gradient": lambda: nsvcd.sweep_gradient(latents, latents, [a]), "certify": lambda: nsvcd.certify(self.BOX, self.BOX, None, [a]),
+            "verify": lambda: nsvcd_verify.verify(proof, self.BOX, self.BOX, [a]), "claim": lambda: nsvcd_verify.claim(self.BOX, self.BOX, [a]),
+            "add": lambda: world.add(self.box, a), "move": lambda: world.move(id, a), "drive": lambda: world.drive(id, a),
+            "of a world": lambda: world.sweep(self.box, a), "of an id": lambda: world.sweep(id, a), "list": lambda: world.list(id, a),
+            "joint": lambda: nsvcd.Robot([nsvcd.Joint(0, a)], [part]), "part": lambda: nsvcd.Robot([nsvcd.Joint(0)], [part._replace(pose=a)]),
+            "reach": lambda: robot.reach([0], a, 1, starts=1),
+            "plan": lambda: nsvcd.plan([latents] * 2, [[0, 1]], lambda joints: np.stack([a, b]), [0], [1], [0], [1], seeds=1)}
+        said = {}
+        for name, ask in asks.items():
+            with warnings.catch_warnings(record=True) as caught:
+                warnings.simplefilter("always")
+                ask()
+            self.assertTrue(all(each.filename == __file__ for each in caught), name)
+            said[name] = " ".join(str(each.message) for each in caught)
+        return said
+
+    def test_warned(self) -> None:
+        self.assertEqual(nsvcd.sweep(self.box, self.box, self.A - self.ORIGIN, self.B - self.ORIGIN).verdict, "hit")
+        with self.assertWarnsRegex(UserWarning, "^poses_a: rounding to float32 moves them by 0.014 m, .* a body of 0.17 m: subtract a common"):
+            self.assertEqual(nsvcd.sweep(self.box, self.box, self.A, self.B).verdict, "free")  # of the rounded ones
+        for name, words in self.asked(self.A, self.B).items():
+            self.assertRegex(words, "subtract a common origin", name)
+
+    def test_not_warned(self) -> None:
+        """Of what is near enough, and of float32, whatever it was before; of what needs no rounding, or rests."""
+        for near in (0, 30):
+            offset = np.array([near, near, near, 0, 0, 0, 0])
+            self.assertEqual(set(self.asked(self.A - self.ORIGIN + offset, self.B - self.ORIGIN + offset).values()), {""})
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            for whole in (np.float32(self.A), self.ORIGIN.astype(int) + IDENTITY, np.float32(self.A).astype(float), np.float32(self.A).tolist()):
+                nsvcd.sweep(self.box, self.box, whole)
+            nsvcd.sweep(Body.box([9999, 9999, 9999]), Body.box([9999, 9999, 9999]), self.A, self.B)
+            tiny = Body.box([1e-5, 1e-5, 1e-5])
+            nsvcd.sweep(tiny, tiny, [1e-5 / 3, 0, 0, 0.6, 0, 0, 0.8])
+            for wrong in (np.nan, np.inf):
+                self.assertRaises(Error, nsvcd.sweep, self.box, self.box, [wrong, 0, 0])
+        far = np.stack([[self.A, self.B]] * 1000)
+        far[:999] -= self.ORIGIN
+        with self.assertWarnsRegex(UserWarning, "^poses_b: .* by 0.015 m"):  # one of many
+            nsvcd.sweep(self.box, self.box, None, far)
 
 
 class Urdf(unittest.TestCase):

@@ -93,10 +93,11 @@ class Body:
     Encoding takes far longer than a question: what is asked about again is to be kept. The mesh is kept too, as `mesh`.
     """
 
-    __slots__ = ("_memory", "_address", "_mesh", "__weakref__")
+    __slots__ = ("_memory", "_address", "_mesh", "_size", "__weakref__")
     _memory: NDArray[np.uint8]
     _address: int
     _mesh: Optional[Mesh]
+    _size: float  # metres, of a ball about it
 
     def __init__(self, mesh: Union[MeshLike, ArrayLike], faces: Optional[ArrayLike] = None, *, scale: float = 1,
                  origin: ArrayLike = (0, 0, 0), patches: int = 0, patch_radius: float = 0, convex_radius: float = 0,
@@ -173,6 +174,7 @@ class Body:
         self._address = _address(memory)
         memory.flags.writeable = False
         self._memory = memory
+        self._size = 2 * _library.nsvcd_body_describe(self._address).radius
 
     @classmethod
     def from_bytes(cls, data: Any) -> Body:

@@ -6,6 +6,7 @@ import ctypes
 from ctypes import byref, c_void_p
 from typing import Any, NamedTuple, Optional, Union
 
+import numpy as np
 from numpy.typing import ArrayLike
 
 from .words import NO_TRIANGLE, _number_of, Verdict, _VERDICTS, Why, _WHYS
@@ -25,10 +26,12 @@ class Tree:
     mesh, faces  as Body has them: a path, (vertices, faces), or what has these
     """
 
-    __slots__ = ("_mesh", "_memory", "_address")
+    __slots__ = ("_mesh", "_memory", "_address", "_size")
 
     def __init__(self, mesh: Union[MeshLike, ArrayLike], faces: Optional[ArrayLike] = None) -> None:
         self._mesh = _c_mesh(*_surface_of(mesh, faces))
+        vertices = self._mesh.kept[0]
+        self._size = float(np.linalg.norm(np.ptp(vertices, axis=0))) if len(vertices) else 0.0
         size = _library.nsvcd_tree_size(byref(self._mesh))
         self._memory = _memory(size)
         tree = c_void_p()
@@ -84,7 +87,7 @@ def certify(a: TreeLike, b: TreeLike, poses_a: Optional[ArrayLike] = None, poses
     visits     steps that may be taken; 1000000
     """
     trees = _tree_of(a, "a"), _tree_of(b, "b")
-    question = _question((None, None), _motions(poses_a, poses_b, times_a, times_b), scale_a, scale_b,
+    question = _question(trees, _motions(poses_a, poses_b, times_a, times_b), scale_a, scale_b,
                          _question_of(clearance=clearance))
     options = _filled(_CertifyOptions, visits=visits)
     if answer is not None:

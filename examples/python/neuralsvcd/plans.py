@@ -19,7 +19,7 @@ from ._library import _library
 from .errors import _check
 from ._arrays import _address, _cancels, Floats, _floats, _indices, _memory, _filled, _numeric
 from .bodies import _body_of, BodyLike
-from .motions import _rows
+from .motions import _rows, _warn_of_rounding
 from .sweeps import _question_of
 
 
@@ -141,12 +141,17 @@ def plan(bodies: Sequence[Optional[BodyLike]], pairs: ArrayLike, kinematics: Cal
     addresses = (c_void_p * len(kept))(*(c_void_p(body._address if body else None) for body in kept))
     met = _indices(pairs, 2, "pairs")
     caught: list[BaseException] = []
+    looked_at: list[str] = []
+    smallest = min((body._size for body in kept if body), default=math.inf)
 
     def call(function: Callable[[Floats], ArrayLike], name: str, posed: Any, given: int, out: int, *shape: int) -> None:
         target = _view(out, *shape)
         try:
-            target[:] = np.nan if caught else _numeric(
-                posed(function(_view(given, joints).copy()), name), shape, name)
+            told = None if caught else _numeric(posed(function(_view(given, joints).copy()), name), shape, name)
+            target[:] = np.nan if told is None else told
+            if told is not None and posed is _rows and not looked_at:  # the first poses, for all
+                looked_at.append(name)
+                _warn_of_rounding(told, target, smallest, name)
         except BaseException as error:  # ctypes would swallow it
             caught.append(error)
             target[:] = np.nan

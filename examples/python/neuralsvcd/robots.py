@@ -244,14 +244,15 @@ class Robot:
         self.joint_names = tuple(joint.name for joint in joints)
         self.part_names = tuple(part.name for part in parts)
         self._mimics = [(k, j.mimic, j.multiplier, j.offset) for k, j in enumerate(joints) if j.mimic is not None]
+        self._bodies = [_body_of(part.body, "body") for part in parts]
+        self._size = min((body._size * (part.scale or 1) for body, part in zip(self._bodies, parts)), default=math.inf)
         self._joints = (_Joint * max(len(joints), 1))(*(
-            _Joint(_number_of(JointKind(j.kind)), _number(c_uint32, j.parent, "parent"), _pose_of(j.origin, "origin"),
+            _Joint(_number_of(JointKind(j.kind)), _number(c_uint32, j.parent, "parent"), _pose_of(j.origin, "origin", self._size),
                    (c_float * 3)(*_floats(j.axis, (3,), "axis").tolist()), j.low, j.high, j.speed, j.acceleration,
                    0 if j.mimic is None else _number(c_uint32, j.mimic + 1, "mimic"), j.multiplier, j.offset)
             for j in joints))
-        self._bodies = [_body_of(part.body, "body") for part in parts]
         self._parts = (_Part * max(len(parts), 1))(*(
-            _Part(body._address, _number(c_uint32, part.link, "link"), _pose_of(part.pose, "pose"), part.scale)
+            _Part(body._address, _number(c_uint32, part.link, "link"), _pose_of(part.pose, "pose", self._size), part.scale)
             for body, part in zip(self._bodies, parts)))
         if clearances is not None and pairs is not None:
             self._clearances = _floats(clearances, (len(_indices(pairs, 2, "pairs")),), "clearances")
@@ -425,7 +426,7 @@ class Robot:
         out = np.empty((most, self.joint_count))
         problem, answer = _ReachProblem(start=_address(row)), _ReachAnswer()
         problem.link, problem.target_link = self._link(link, "link"), self._link(target_link, "target_link")
-        problem.tool, problem.target = _pose_of(tool, "tool"), _pose_of(target, "target")
+        problem.tool, problem.target = _pose_of(tool, "tool", self._size), _pose_of(target, "target", self._size)
         problem.half[:] = _floats(half, (3,), "half").tolist()
         problem.free_axis[:] = _floats(free_axis, (3,), "free_axis").tolist()
         stays = self._held(held)

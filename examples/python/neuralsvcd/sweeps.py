@@ -16,7 +16,7 @@ from ._library import _library
 from .errors import _check_question
 from ._arrays import _address, _filled, Floats, _memory
 from .bodies import Body, _body_of, BodyLike
-from .motions import _Motion, _motion
+from .motions import _Motion, _motion, _warn_of_rounding
 from .batches import _are_many, _sweep_many, _workspace
 from .answers import Answer, _answer_of, Contact, _CONTACT, _contact_of
 
@@ -69,11 +69,14 @@ def _motions(poses_a: Optional[ArrayLike], poses_b: Optional[ArrayLike], times_a
 
 
 def _question(bodies: Sequence[Any], motions: tuple[_Motion, _Motion], scale_a: float, scale_b: float, asked: Any) -> Any:
-    """bodies: two, or None each, where they are none of the library's."""
+    """bodies: two, or Trees, which are none of the library's."""
     question = _Question.from_buffer_copy(asked)
-    addresses = [body._address if body else None for body in bodies]
-    question.a = _mover(addresses[0], motions[0], scale_a, "a")
-    question.b = _mover(addresses[1], motions[1], scale_b, "b")
+    a, b = (body._address if isinstance(body, Body) else None for body in bodies)
+    question.a = _mover(a, motions[0], scale_a, "a")
+    question.b = _mover(b, motions[1], scale_b, "b")
+    size = min(bodies[0]._size * abs(scale_a), bodies[1]._size * abs(scale_b))
+    _warn_of_rounding(motions[0].given, motions[0].poses, size, "poses_a")
+    _warn_of_rounding(motions[1].given, motions[1].poses, size, "poses_b")
     question.kept = motions, bodies
     return question
 
@@ -183,7 +186,7 @@ def sweep_gradient(a: BodyLike, b: BodyLike, poses_a: Optional[ArrayLike] = None
     question = _question(_two_bodies(a, b), _motions(poses_a, poses_b, times_a, times_b), scale_a, scale_b, _asked(
         ask, 0, 0, 0, 0, 0, False, False, Method.NETWORK, 0, segments, pairs, model, precision, recall, inflate))
     answer = _Answer()
-    by_a, by_b = (np.zeros((1 if poses is None else len(poses), 6), np.float32) for poses, _ in question.kept[0])
+    by_a, by_b = (np.zeros((1 if motion.poses is None else len(motion.poses), 6), np.float32) for motion in question.kept[0])
     code = _library.nsvcd_sweep_gradient(byref(question), _workspace.address, _workspace.size, byref(answer),
                                          _address(by_a), _address(by_b))
     _check_question(code, question)
