@@ -305,8 +305,8 @@ class Rounding(unittest.TestCase):
 
     def test_not_warned(self) -> None:
         """Of what is near enough, and of float32, whatever it was before; of what needs no rounding, or rests."""
-        for near in (0, 30):
-            offset = np.array([near, near, near, 0, 0, 0, 0])
+        for aside in (0, 30):
+            offset = np.array([aside, aside, aside, 0, 0, 0, 0])
             self.assertEqual(set(self.asked(self.A - self.ORIGIN + offset, self.B - self.ORIGIN + offset).values()), {""})
         with warnings.catch_warnings():
             warnings.simplefilter("error")
@@ -321,6 +321,39 @@ class Rounding(unittest.TestCase):
         far[:999] -= self.ORIGIN
         with self.assertWarnsRegex(UserWarning, "^poses_b: .* by 0.015 m"):  # one of many
             nsvcd.sweep(self.box, self.box, None, far)
+
+
+class FarMeshes(unittest.TestCase):
+    """Whose corners floats cannot tell apart any more."""
+
+    def test_warned(self) -> None:
+        box = Mesh.box([0.2, 0.3, 0.1])
+        place = np.array([5e5, 3e5, 0])
+        far = box.vertices + place, box.faces
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "far.obj"
+            path.write_text("\n".join([*("v %.9f %.9f %.9f" % tuple(corner) for corner in far[0]), *("f %d %d %d" % tuple(row + 1) for row in box.faces)]))
+            for call in (lambda: Body(*far), lambda: Body(far), lambda: Body(path), lambda: Mesh.load(path), lambda: nsvcd.Tree(far),
+                         lambda: Body((far[0] * 1000, far[1]), scale=0.001), lambda: nsvcd.sweep(far, box), lambda: Body(Mesh(*far)),
+                         lambda: nsvcd.certify(box, path), lambda: Body.capsule(place, place + [0, 0, 1], 0.1)):
+                with warnings.catch_warnings(record=True) as caught:
+                    warnings.simplefilter("always")
+                    call()
+                said = [str(each.message) for each in caught if "not a closed" not in str(each.message)]
+                self.assertEqual(len(said), 1)
+                self.assertRegex(said[0], "5e[+]05 m from its origin, where floats are 0.06 m apart: of a map[?] try origin=.*, of Body")
+                self.assertEqual(caught[0].filename, __file__)
+                origin = json.loads(said[0].split("origin=")[1].split(", of")[0])
+                self.assertTrue(np.abs(np.array(origin) / (1000 if origin[0] > 1e6 else 1) - place).max() < 1)
+            with warnings.catch_warnings():
+                warnings.simplefilter("error")
+                for body in (Body(path, origin=place), Body(*far, origin=place), Body(far[0] * 1000, far[1], scale=0.001, origin=place * 1000)):
+                    np.testing.assert_allclose(body.mesh.vertices, box.vertices, atol=1e-8)
+                Body(box.vertices + [200, 0, 0], box.faces)
+                Body.cloud([[5, 0, 0]], 0.1)
+                Body(Mesh.box([1e6, 1e6, 10]))
+        with self.assertWarnsRegex(UserWarning, "try origin"):  # a millimetre's hundredth apart, and a millimetre large
+            Body(box.vertices / 100 + [100, 0, 0], box.faces)
 
 
 class Urdf(unittest.TestCase):

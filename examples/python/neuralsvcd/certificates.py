@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ctypes
+import os
 from ctypes import byref, c_void_p
 from typing import Any, NamedTuple, Optional, Union
 
@@ -15,7 +16,7 @@ from ._library import _library
 from .errors import _check
 from ._arrays import _address, _filled, _memory
 from .bodies import Body
-from .meshes import _c_mesh, MeshLike, _surface_of
+from .meshes import _c_mesh, MeshLike, _surface_of, _warn_if_far
 from .answers import Answer
 from .sweeps import _motions, _question, _question_of
 
@@ -37,6 +38,8 @@ class Tree:
         tree = c_void_p()
         _check(_library.nsvcd_tree_build(byref(self._mesh), _address(self._memory), size, byref(tree)))
         self._address = tree.value
+        if not isinstance(mesh, (str, os.PathLike)):
+            _warn_if_far(vertices, 0, 1, (0, 0, 0), "mesh")
 
     def __reduce__(self) -> tuple[Any, ...]:
         return Tree, self._mesh.kept
