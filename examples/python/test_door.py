@@ -448,6 +448,33 @@ class Urdf(unittest.TestCase):
                 nsvcd.Robot.from_urdf(path, fixed={"left": 0.2})
         self.assertEqual(hand.check({"left": [0, 0.4]}).verdict, "free")
 
+    def test_millimetres(self) -> None:
+        """A mesh of 400 m, warned of as Mesh.load does."""
+        fore = "<link name='base'/><link name='fore'><collision><geometry><mesh filename='fore.obj'{}/></geometry></collision></link>"
+        joint = "<joint name='j' type='continuous'><parent link='base'/><child link='fore'/><limit velocity='1'/></joint>"
+        with tempfile.TemporaryDirectory() as name:
+            folder, mesh = Path(name), Mesh.box([400, 50, 50])
+            lines = [*("v {} {} {}".format(*corner) for corner in mesh.vertices), *("f {} {} {}".format(*row + 1) for row in mesh.faces)]
+            (folder / "fore.obj").write_text("\n".join(lines))
+            for scale in ("", " scale='1 -1 1'"):
+                with self.assertWarnsRegex(UserWarning, "fore: .*fore.obj: a body of 400 m: .*millimetres[?] try the URDF's scale 0.001$"):
+                    nsvcd.Robot.from_urdf(self.written(folder, fore.format(scale) + joint))
+            with self.assertWarnsRegex(UserWarning, "a body of 400 m"):
+                nsvcd.Robot.from_urdf(self.FOLDER / "arm.urdf", obstacles=self.written(folder, fore.format("")))
+            with warnings.catch_warnings():
+                warnings.simplefilter("error")
+                nsvcd.Robot.from_urdf(self.written(folder, fore.format(" scale='0.001 0.001 0.001'") + joint))
+
+    def test_two_roots(self) -> None:
+        link = "<link name='{}'><collision><geometry><box size='1 1 1'/></geometry></collision></link>"
+        text = "".join(map(link.format, "abc")) + "<joint name='j' type='continuous'><parent link='b'/><child link='c'/><limit velocity='1'/></joint>"
+        with tempfile.TemporaryDirectory() as name:
+            path = self.written(Path(name), text)
+            with self.assertRaisesRegex(ValueError, "robot.urdf: no joint reaches the link b, nor a: a robot has one root"):
+                nsvcd.Robot.from_urdf(path)
+            done = subprocess.run([sys.executable, self.FOLDER / "urdf.py", path, Path(name) / "out.txt"], capture_output=True, text=True)
+            self.assertRegex(done.stderr, "no joint reaches the link b, nor a: a robot has one root")
+
     def test_refused(self) -> None:
         link = "<link name='a'><collision><geometry><box size='1 1 1'/></geometry></collision></link>"
         floating = link + link.replace("'a'", "'b'") + "<joint name='j' type='{}'><parent link='a'/><child link='b'/>{}</joint>"

@@ -199,14 +199,14 @@ def _surface_of(given: Any, faces: Optional[ArrayLike] = None, scale: float = 1,
     return vertices, faces
 
 
-def _warn_of_size(mesh: Mesh, scale: float, name: str) -> None:
+def _warn_of_size(mesh: Mesh, scale: float, name: str, word: str = "scale=") -> None:
     """What is larger than 30 m or smaller than 1 mm is hardly meant: warned of as by `svcd info`."""
     extent = float(np.ptp(mesh.vertices, axis=0).max())
     if 0.001 <= extent <= 30:
         return
     is_large = extent > 30
-    question = "are these millimetres? try scale=" if is_large else "is it too small by a thousand? try scale="
-    _warn(f"{name}: a body of {extent:.4g} m: {question}{scale / 1000 if is_large else scale * 1000:g}")
+    question = "are these millimetres? try" if is_large else "is it too small by a thousand? try"
+    _warn(f"{name}: a body of {extent:.4g} m: {question} {word}{scale / 1000 if is_large else scale * 1000:g}")
 
 
 def _warn_if_far(vertices: Floats, size: float, scale: float, origin: ArrayLike, name: str) -> None:
