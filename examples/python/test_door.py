@@ -7,6 +7,7 @@ import json
 import os
 import pickle
 import pydoc
+import re
 import shutil
 import subprocess
 import sys
@@ -598,6 +599,20 @@ class Tour(unittest.TestCase):
 
 
 class Types(unittest.TestCase):
+    def test_readme(self) -> None:
+        """Its programs, as they stand."""
+        if not shutil.which("mypy"):
+            self.skipTest("no mypy: not tested")
+        programs = re.findall(r"^```python\n(.*?)^```", (HERE / "README.md").read_text(), re.M | re.S)
+        self.assertEqual(len(programs), 2)
+        with tempfile.TemporaryDirectory() as folder:
+            files = [Path(folder) / f"program_{k}.py" for k in range(2)]
+            for file, text in zip(files, programs):
+                file.write_text(text)
+            done = subprocess.run(["mypy", "--strict", "--cache-dir", os.devnull, *files], capture_output=True, text=True,
+                                  env={**os.environ, "MYPYPATH": str(HERE)})
+        self.assertEqual((done.returncode, done.stderr), (0, ""), done.stdout)
+
     def test_strict(self) -> None:
         if not shutil.which("mypy"):
             self.skipTest("no mypy: not tested")
@@ -619,6 +634,10 @@ class Types(unittest.TestCase):
             path = np.zeros((2, 7))
             answer = nsvcd.sweep(mug, (vertices, faces), path, [[0, 0, 1]], ask=nsvcd.Ask.FIRST, clearance=0.01)
             when: float = answer.time.high
+            one: nsvcd.Answer = nsvcd.sweep(mug, "rack.obj", [[0, 0, 1], [0, 0, 0]], ask="first", method="proof")
+            known = nsvcd.sweep(mug, other, [0, 0, 1])
+            hits: int = (nsvcd.sweep(mug, other, np.zeros((2, 5, 7))).verdict == "hit").sum()
+            earliest = nsvcd.sweep([mug, other], mug, [[0, 0, 1]]).time.high[0]
             proof: nsvcd.Certificate = nsvcd.certify(mug, "rack.obj", path, answer=answer)
             answers: Any = nsvcd.sweep([mug, other], mug, np.zeros((2, 5, 7)), threads=2)
             count: int = (answers.verdict == "hit").sum()
@@ -630,7 +649,9 @@ class Types(unittest.TestCase):
             if world.sweep(world.add(nsvcd.Mesh.box((1, 1, 1)), [0, 0, 1])).body is None: world.list(mug, nsvcd.poses(path))
         """
         wrong = ("nsvcd.sweep(mug, mug, path, ask=1)", "nsvcd.sweep(mug, mug, path, clearence=1)", "nsvcd.Body.sphere('1')",
-                 "nsvcd.sweep(1, mug)", "arm.route()", "answer.verdikt", "proof.time.high")
+                 "nsvcd.sweep(1, mug)", "arm.route()", "known.verdikt", "proof.time.high", "nsvcd.sweep(mug, mug, path, ask='frist')", "known.verdict.sum()",
+                 "nsvcd.sweep(mug, mug, method='prove')", "nsvcd.World(1).sweep(1, path, ask='frist')", "nsvcd.poses(path, 'zyx')",
+                 "nsvcd.Joint(0, kind='revolve')")
         lines = [line.strip() for line in right.strip().splitlines()]
         with tempfile.TemporaryDirectory() as folder:
             file = Path(folder) / "caller.py"

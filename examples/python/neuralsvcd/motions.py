@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from ctypes import c_float
-from typing import Any, NamedTuple, Optional
+from typing import Any, Literal, NamedTuple, Optional
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -15,9 +15,10 @@ from .meshes import _warn
 
 
 _ORDERS = ("xyzw", "wxyz")
+_Order = Literal["xyzw", "wxyz"]
 
 
-def poses(given: Any, order: str = "xyzw", *, rotations: Any = None, to: str = "xyzw") -> Doubles:
+def poses(given: Any, order: _Order = "xyzw", *, rotations: Any = None, to: _Order = "xyzw") -> Doubles:
     """Poses (..., 7), as all functions here take and return them: x y z in metres, unit quaternion x y z w.
 
     given      (..., 7), (..., 3) positions, or (..., 4, 4) rigid matrices, which take points as columns; or what is a pose

@@ -12,7 +12,7 @@ from typing import Any, NamedTuple, Optional, Union
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .words import JointKind, LEAVE_OUT, _number_of, RouteStatus, Verdict, _VERDICTS, Why, _WHYS
+from .words import JointKind, _KindWord, LEAVE_OUT, _number_of, RouteStatus, Verdict, _VERDICTS, Why, _WHYS
 from ._structs import (
     _Allowance, _CheckAnswer, _CheckOptions, _Cone, _Joint, _JointMotion, _NearestFreeOptions, _PairCounts, _Part,
     _PartialMotion, _Proximity, _ProximityOptions, _ReachAnswer, _ReachOptions, _ReachProblem, _RouteAnswer,
@@ -43,7 +43,7 @@ class Joint(NamedTuple):
     parent: int
     origin: ArrayLike = _IDENTITY
     axis: ArrayLike = (0.0, 0.0, 1.0)
-    kind: JointKind = JointKind.REVOLUTE
+    kind: _KindWord = JointKind.REVOLUTE
     low: float = -math.pi
     high: float = math.pi
     speed: float = 0

@@ -5,12 +5,12 @@ from __future__ import annotations
 import functools
 from collections.abc import Sequence
 from ctypes import byref, c_float, c_int, c_size_t
-from typing import Any, NamedTuple, Optional, Union, cast
+from typing import Any, NamedTuple, Optional, Union, cast, overload
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .words import Ask, Method, Model, Precision
+from .words import Ask, _AskWord, Method, _MethodWord, Model, _ModelWord, Precision, _PrecisionWord
 from ._structs import _Answer, _Contact, _MAX_CONTACTS, _NetworkOptions, _Question
 from ._library import _library
 from .errors import _check_question
@@ -86,15 +86,36 @@ def _two_bodies(a: Any, b: Any) -> tuple[Body, Body]:
     return first, first if b is a else _body_of(b, "b")
 
 
+_One = Union[None, Sequence[float], Sequence[Sequence[float]]]  # of which a type tells that it is no more than one motion
+
+
+@overload
+def sweep(a: BodyLike, b: BodyLike, poses_a: _One = ..., poses_b: _One = ..., *, times_a: Optional[Sequence[float]] = ...,
+          times_b: Optional[Sequence[float]] = ..., scale_a: float = ..., scale_b: float = ..., ask: _AskWord = ..., to: float = ...,
+          to_time: float = ..., clearance: float = ..., slop: float = ..., tolerance: float = ..., manifold: bool = ...,
+          surfaces: bool = ..., method: _MethodWord = ..., work: int = ..., segments: int = ..., pairs: int = ...,
+          model: _ModelWord = ..., precision: _PrecisionWord = ..., recall: float = ..., inflate: float = ...,
+          threads: int = ...) -> Answer: ...
+
+
+@overload
+def sweep(a: Union[BodyLike, Sequence[BodyLike]], b: Union[BodyLike, Sequence[BodyLike]], poses_a: Optional[ArrayLike] = ...,
+          poses_b: Optional[ArrayLike] = ..., *, times_a: Optional[ArrayLike] = ..., times_b: Optional[ArrayLike] = ...,
+          scale_a: ArrayLike = ..., scale_b: ArrayLike = ..., ask: _AskWord = ..., to: float = ..., to_time: float = ...,
+          clearance: float = ..., slop: float = ..., tolerance: float = ..., manifold: bool = ..., surfaces: bool = ...,
+          method: _MethodWord = ..., work: int = ..., segments: int = ..., pairs: int = ..., model: _ModelWord = ...,
+          precision: _PrecisionWord = ..., recall: float = ..., inflate: float = ..., threads: int = ...) -> Any: ...
+
+
 def sweep(a: Union[BodyLike, Sequence[BodyLike]], b: Union[BodyLike, Sequence[BodyLike]],
           poses_a: Optional[ArrayLike] = None, poses_b: Optional[ArrayLike] = None, *,
           times_a: Optional[ArrayLike] = None, times_b: Optional[ArrayLike] = None, scale_a: ArrayLike = 1,
           scale_b: ArrayLike = 1,
-          ask: str = "hit", to: float = 0, to_time: float = 0, clearance: float = 0, slop: float = 0,
-          tolerance: float = 0, manifold: bool = False, surfaces: bool = False, method: str = "default",
-          work: int = 0, segments: int = 0, pairs: int = 0, model: str = "default", precision: str = "float",
+          ask: _AskWord = "hit", to: float = 0, to_time: float = 0, clearance: float = 0, slop: float = 0,
+          tolerance: float = 0, manifold: bool = False, surfaces: bool = False, method: _MethodWord = "default",
+          work: int = 0, segments: int = 0, pairs: int = 0, model: _ModelWord = "default", precision: _PrecisionWord = "float",
           recall: float = 0, inflate: float = 0,
-          threads: int = 1) -> Union[Answer, Any]:
+          threads: int = 1) -> Any:
     """Do two bodies hit each other? And when first: ask="first". Of many motions at once: the same, in one call.
 
     a, b              each a Body, or what stands for a mesh, which is encoded for this call alone: see Body
@@ -179,8 +200,8 @@ class Gradient(NamedTuple):
 
 def sweep_gradient(a: BodyLike, b: BodyLike, poses_a: Optional[ArrayLike] = None, poses_b: Optional[ArrayLike] = None, *,
                    times_a: Optional[ArrayLike] = None, times_b: Optional[ArrayLike] = None, scale_a: float = 1,
-                   scale_b: float = 1, ask: str = "hit", segments: int = 0, pairs: int = 0, model: str = "default",
-                   precision: str = "float", recall: float = 0, inflate: float = 0) -> Gradient:
+                   scale_b: float = 1, ask: _AskWord = "hit", segments: int = 0, pairs: int = 0, model: _ModelWord = "default",
+                   precision: _PrecisionWord = "float", recall: float = 0, inflate: float = 0) -> Gradient:
     """As sweep, by the network, with derivatives of the logit, or of the distance: ask="distance". They are zero where
     the network had nothing to look at. Both bodies need latents."""
     question = _question(_two_bodies(a, b), _motions(poses_a, poses_b, times_a, times_b), scale_a, scale_b, _asked(

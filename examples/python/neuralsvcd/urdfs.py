@@ -57,7 +57,7 @@ def _encoded(reader: Any, body: Any, balls: int) -> Body:
         mesh = Mesh.parse(data, body.mesh, scale[0])
     else:
         mesh = Mesh.parse(data, body.mesh)
-        mesh = Mesh(np.float32(mesh.vertices * np.array(scale)), mesh.faces[:, ::-1] if np.prod(scale) < 0 else mesh.faces)
+        mesh = Mesh(np.asarray(mesh.vertices * np.array(scale), np.float32), mesh.faces[:, ::-1] if np.prod(scale) < 0 else mesh.faces)
     _warn_of_size(mesh, scale[0], f"{body.name}: {body.mesh}", "the URDF's scale ")
     return Body(mesh, balls=balls)
 

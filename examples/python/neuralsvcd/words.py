@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import enum
 from ctypes import c_size_t
-from typing import Any
+from typing import Any, Literal, Union
 
 
 class Code(enum.IntEnum):
@@ -155,6 +155,13 @@ class RouteStatus(enum.IntEnum):
     START = 3
     GOAL = 4
 
+
+# What may be said of these, for type checkers.
+_AskWord = Union[Ask, Literal["hit", "first", "distance"]]
+_MethodWord = Union[Method, Literal["default", "proof", "network"]]
+_ModelWord = Union[Model, Literal["default", "tiny", "small", "base"]]
+_PrecisionWord = Union[Precision, Literal["float", "int8"]]
+_KindWord = Union[JointKind, Literal["revolute", "continuous", "prismatic"]]
 
 NO_TRIANGLE = 0xffffffff  # in the arrays of sweep
 LEAVE_OUT = c_size_t(-1).value  # Stage.iterations

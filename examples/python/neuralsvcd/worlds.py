@@ -12,7 +12,7 @@ from typing import Any, NamedTuple, Optional, Union
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .words import Code, Method, Verdict, _VERDICTS, Why, _WHYS
+from .words import _AskWord, Code, Method, Verdict, _VERDICTS, Why, _WHYS
 from ._structs import (
     _SlideAnswer, _SlideOptions, _StepAnswer, _StepOptions, _struct, _WorldAnswer, _WorldBody, _WorldContact,
     _WorldQuestion)
@@ -239,7 +239,7 @@ class World:
 
     def sweep(self, mover: Union[int, BodyLike], poses: Optional[ArrayLike] = None, *, times: Optional[ArrayLike] = None,
               scale: float = 1, pivot: ArrayLike = (0, 0, 0), groups: int = 0, passes: int = 0, ignore: int = 0,
-              ask: str = "hit", to: float = 0, to_time: float = 0, clearance: float = 0, slop: float = 0,
+              ask: _AskWord = "hit", to: float = 0, to_time: float = 0, clearance: float = 0, slop: float = 0,
               tolerance: float = 0, manifold: bool = False, surfaces: bool = False, work: int = 0,
               segments: int = 0) -> WorldAnswer:
         """Does a mover hit any body? And which first: ask="first". Driven bodies are asked about as they move.
