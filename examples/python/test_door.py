@@ -334,7 +334,7 @@ class FarMeshes(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             path = Path(folder) / "far.obj"
             path.write_text("\n".join([*("v %.9f %.9f %.9f" % tuple(corner) for corner in far[0]), *("f %d %d %d" % tuple(row + 1) for row in box.faces)]))
-            for call in (lambda: Body(*far), lambda: Body(far), lambda: Body(path), lambda: Mesh.load(path), lambda: nsvcd.Tree(far),
+            for call in (lambda: Body(*far), lambda: Body(far), lambda: Body(path), lambda: Mesh.load(path), lambda: nsvcd.certify(box, nsvcd.Tree(far)),
                          lambda: Body((far[0] * 1000, far[1]), scale=0.001), lambda: nsvcd.sweep(far, box), lambda: Body(Mesh(*far)),
                          lambda: nsvcd.certify(box, path), lambda: Body.capsule(place, place + [0, 0, 1], 0.1)):
                 with warnings.catch_warnings(record=True) as caught:

@@ -12,13 +12,13 @@ from typing import Any, NamedTuple, Optional, Union
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .words import JointKind, _KindWord, LEAVE_OUT, _number_of, RouteStatus, Verdict, _VERDICTS, Why, _WHYS
+from .words import Code, JointKind, _KindWord, LEAVE_OUT, _number_of, RouteStatus, Verdict, _VERDICTS, Why, _WHYS
 from ._structs import (
     _Allowance, _CheckAnswer, _CheckOptions, _Cone, _Joint, _JointMotion, _NearestFreeOptions, _PairCounts, _Part,
     _PartialMotion, _Proximity, _ProximityOptions, _ReachAnswer, _ReachOptions, _ReachProblem, _RouteAnswer,
     _RouteOptions, _RouteProblem, _Scene, _STOP)
 from ._library import _library
-from .errors import _check
+from .errors import _check, Error
 from ._arrays import (
     _address, _cancels, _doubles, Doubles, FilePath, _filled, Floats, _floats, _IDENTITY, _indices, _memory, _number,
     _vector, Vector)
@@ -465,7 +465,7 @@ class Robot:
     def merge(self, motions: Sequence[Motion], rest: Optional[Joints] = None) -> Motion:
         """Motions of different joints, each on a clock of its own, as one of all joints: nsvcd_merge_motions.
 
-        rest  (F) where joints are that none of them moves
+        rest  (F) where joints are that none of them moves; None: there are none
         `check(m.points, degree=m.degree, times=m.times, to_time=0.001)` of the result m finds the first conflict.
         """
         kept: list[Any] = []
@@ -476,6 +476,9 @@ class Robot:
             row.motion = _motion_of(motion.points, len(joints), motion.degree, motion.times, kept)
             row.joints, row.joint_count = _address(joints), len(joints)
             row.delay = motion.delay
+        moved = {joint for motion in motions for joint in np.asarray(motion.joints).reshape(-1).tolist()}
+        if rest is None and (left := [name or str(k) for k, name in enumerate(self.joint_names) if k not in moved]):
+            raise Error(Code.ARGUMENT, "rest", reason=f"nobody moves {', '.join(left)}: where it is has to be told")
         resting = None if rest is None else _doubles(self._rows(rest, "rest"), (self.joint_count,), "rest")
         size = _library.nsvcd_merge_motions_size(rows, len(motions), self.joint_count)
         memory = _memory(size)
