@@ -380,6 +380,9 @@ class Urdf(unittest.TestCase):
         self.assertEqual((straight.verdict, self.arm.pair_names(straight.pair)), ("hit", ("wrist_a", "board_2")))
         route = self.arm.route(self.LOW, self.UP)
         self.assertEqual(route.status, nsvcd.RouteStatus.FOUND)
+        self.assertEqual((route.status, f"{route.status} {bool(route)}"), ("found", "found True"))
+        stuck = self.arm.route(self.arm.nearest_free(self.LOW), straight.fraction * np.subtract(self.UP, self.LOW) + self.LOW)
+        self.assertEqual((str(stuck.status), bool(stuck)), ("goal", False))
         if not SVCD.exists():
             self.skipTest("no build/svcd: not tested")
         with tempfile.TemporaryDirectory() as folder:
@@ -489,6 +492,9 @@ class Urdf(unittest.TestCase):
             turning = self.written(folder, floating.format("continuous", ""))
             with self.assertWarnsRegex(UserWarning, "joint j: no velocity"):
                 nsvcd.Robot.from_urdf(turning)
+            taken = self.arm.handed_over(self.UP, "board_1", "wrist_3")
+            with self.assertRaisesRegex(ValueError, "obstacles: board_1 is on link 6: an obstacle rests on link 0"):
+                nsvcd.Robot.from_urdf(self.FOLDER / "arm.urdf", obstacles=[taken])
             with self.assertRaisesRegex(ValueError, "no joint k"):
                 nsvcd.Robot.from_urdf(turning, velocity=1, fixed={"k": 0})
             with self.assertRaises(ValueError):
@@ -593,7 +599,7 @@ class Tour(unittest.TestCase):
                 pyplot.close("all")
         self.assertRegex(printed.getvalue(), "^" + "\n".join((
             "hit: free before 0.59, in contact at 0.60", "free: 197.4 mm", "4880 of 10000 hit, the first at 0.6",
-            "straight: hit wrist_a board_2", r"route: FOUND, 1.\d s", r"asleep, at heights \[0.1 0.3 0.5 0.7 0.9\]",
+            "straight: hit wrist_a board_2", r"route: found, 1.\d s", r"asleep, at heights \[0.1 0.3 0.5 0.7 0.9\]",
             r"free \d+ bytes; accepted: True")) + "\n$")
         self.assertLess(names["seconds"], 10)
 

@@ -11,7 +11,7 @@ from typing import Any, NamedTuple, Optional
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .words import LEAVE_OUT, PlanStatus
+from .words import LEAVE_OUT, _PLANS, PlanStatus
 from ._structs import (
     _MAX_VIA_POINTS, _PLACE, _PLAN_PROGRESS, _PlanAnswer, _PlanOptions, _PlanProblem, _PlanProgress, _PlanStage,
     _struct)
@@ -74,7 +74,7 @@ class Plan(NamedTuple):
     """nsvcd_plan_answer, and the trajectory.
 
     control       (M + 2, F) start, via points, goal: see spline
-    status        CONVERGED: within the limits, and proven free where bodies have triangles, but for `deviation`
+    status        converged: within the limits, and proven free where bodies have triangles, but for `deviation`
     collides      by the last check, or of the start or the goal where the status says so
     joint, pair   that leaves its limits; of the greatest logit; or None
     logit, time   the greatest of the last check, and when
@@ -186,6 +186,6 @@ def plan(bodies: Sequence[Optional[BodyLike]], pairs: ArrayLike, kinematics: Cal
         raise caught[0]
     _check(code)
     joint, pair = (None if index == LEAVE_OUT else index for index in (answer.joint, answer.pair))
-    return Plan(control[:answer.via_points + 2].copy(), PlanStatus(answer.status), bool(answer.collides), joint, pair,
+    return Plan(control[:answer.via_points + 2].copy(), _PLANS[answer.status], bool(answer.collides), joint, pair,
                 answer.logit, answer.time, answer.deviation, answer.cost, answer.smoothness, answer.seeds, answer.iterations,
                 answer.trajectories, answer.sweeps)

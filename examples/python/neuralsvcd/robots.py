@@ -12,7 +12,7 @@ from typing import Any, NamedTuple, Optional, Union
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .words import Code, JointKind, _KindWord, LEAVE_OUT, _number_of, RouteStatus, Verdict, _VERDICTS, Why, _WHYS
+from .words import Code, JointKind, _KindWord, LEAVE_OUT, _number_of, _ROUTES, RouteStatus, Verdict, _VERDICTS, Why, _WHYS
 from ._structs import (
     _Allowance, _CheckAnswer, _CheckOptions, _Cone, _Joint, _JointMotion, _NearestFreeOptions, _PairCounts, _Part,
     _PartialMotion, _Proximity, _ProximityOptions, _ReachAnswer, _ReachOptions, _ReachProblem, _RouteAnswer,
@@ -150,7 +150,9 @@ class Reached(NamedTuple):
 class Route(NamedTuple):
     """nsvcd_route_answer. route.at(times) are its joints, route.plot(robot) draws it.
 
-    status         FOUND; LIMIT, STOPPED: it was given up; START, GOAL: that is not free, and `check` says why
+    As a condition it is that one was found.
+
+    status         found; limit, stopped: it was given up; start, goal: that is not free, and `check` says why
     goal           the index of the one that is reached, or None
     points, times  (2 pieces + 1, F) and (pieces + 1) seconds: Bezier pieces of degree 2, for `Robot.check`; None unless FOUND
     stops          times in between at which it rests
@@ -169,6 +171,9 @@ class Route(NamedTuple):
     checks: int
     proven: int
     looks: int
+
+    def __bool__(self) -> bool:
+        return self.status is RouteStatus.FOUND
 
     def plot(self, robot: Robot, count: int = 6, *, axes: Any = None) -> Any:
         """Draws a robot at so many times of the route into axes of matplotlib, projection="3d"; None: into a new figure.
@@ -222,7 +227,7 @@ class Robot:
 
         arm = Robot.from_urdf("arm.urdf", srdf="arm.srdf", obstacles="shelf.urdf")
         route = arm.route({"pan": -2.6, "lift": -0.7, ...}, goal)
-        if route.status == RouteStatus.FOUND: send(route.at(np.arange(0, route.duration, 0.01)))
+        if route: send(route.at(np.arange(0, route.duration, 0.01)))
 
     Configurations are arrays (F) of all joints, radians and metres, in float64; or, where joints have names, what maps each
     name to its value, or to (n) of them; joints that mimic others may be left out.
@@ -555,13 +560,14 @@ class Robot:
         _check(code)
         points: Optional[Doubles] = None
         times: Optional[Doubles] = None
-        is_found = answer.status == RouteStatus.FOUND
+        status = _ROUTES[answer.status]
+        is_found = status is RouteStatus.FOUND
         if is_found:
             count = answer.motion.pieces
             shape = (2 * count + 1, self.joint_count)
             numbers = (c_double * math.prod(shape)).from_address(answer.motion.points)
             points = np.frombuffer(numbers).reshape(shape).copy()
             times = np.frombuffer((c_double * (count + 1)).from_address(answer.motion.times)).copy()
-        return Route(RouteStatus(answer.status), answer.goal if is_found else None, points, times, answer.stops,
+        return Route(status, answer.goal if is_found else None, points, times, answer.stops,
                      answer.duration, answer.unhindered, _checked(answer.check), answer.nodes, answer.checks,
                      answer.proven, answer.looks)

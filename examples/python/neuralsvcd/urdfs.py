@@ -105,5 +105,9 @@ def _read_urdf(path: FilePath, srdf: Optional[FilePath], obstacles: Union[FilePa
         if not all(hasattr(part, "_asdict") for part in obstacles):
             raise TypeError("obstacles: a URDF's path, or Parts: [Part(body, 0, pose=...)]")
         rows = [part._asdict() for part in cast(Sequence[Any], obstacles)]
+        for row in rows:
+            if row["link"]:
+                raise ValueError(f"obstacles: {row['name'] or 'a Part'} is on link {row['link']}: an obstacle rests on link 0, the world; "
+                                 "what a link carries is one of the parts of Robot(joints, parts, pairs)")
     pairs += [(k, len(parts) + n) for k in moving for n in range(len(rows))]
     return _Scene(joints, parts + rows, pairs)

@@ -131,13 +131,13 @@ class Method(_Word):
     NETWORK = "network"
 
 
-class PlanStatus(enum.IntEnum):
+class PlanStatus(_Word):
     """What a plan is: nsvcd_plan_status."""
-    CONVERGED = 0
-    LIMIT = 1
-    CANCELLED = 2
-    START = 3
-    GOAL = 4
+    CONVERGED = "converged"
+    LIMIT = "limit"
+    CANCELLED = "cancelled"
+    START = "start"
+    GOAL = "goal"
 
 
 class JointKind(_Word):
@@ -147,13 +147,13 @@ class JointKind(_Word):
     PRISMATIC = "prismatic"
 
 
-class RouteStatus(enum.IntEnum):
+class RouteStatus(_Word):
     """What a route is: nsvcd_route_status."""
-    FOUND = 0
-    LIMIT = 1
-    STOPPED = 2
-    START = 3
-    GOAL = 4
+    FOUND = "found"
+    LIMIT = "limit"
+    STOPPED = "stopped"
+    START = "start"
+    GOAL = "goal"
 
 
 # What may be said of these, for type checkers.
@@ -169,6 +169,7 @@ _PREFIXES: dict[Any, str] = {
     Code: "ERROR_", Ask: "ASK_", Verdict: "", By: "BY_", Why: "WHY_", Model: "MODEL_", Precision: "PRECISION_",
     Method: "METHOD_", PlanStatus: "PLAN_", JointKind: "JOINT_", RouteStatus: "ROUTE_"}
 _VERDICTS, _BYS, _WHYS = tuple(Verdict), tuple(By), tuple(Why)
+_ROUTES, _PLANS = tuple(RouteStatus), tuple(PlanStatus)
 
 
 def _number_of(value: enum.Enum) -> int:
