@@ -257,7 +257,7 @@ static const neuralsvcd_layout layouts[] = {
     FIELD(slide_answer, caught), FIELD(slide_answer, contact_count),
     FIELD(slide_answer, contacts), FIELD(slide_answer, questions), FIELD(slide_answer, work),
     FIELD(slide_answer, told), FIELD(slide_answer, given), FIELD(slide_answer, seconds),
-    FIELD(slide_answer, clock),
+    FIELD(slide_answer, clock), FIELD(slide_answer, slides),
     STRUCT(world_mover), FIELD(world_mover, id), FIELD(world_mover, how), FIELD(world_mover, velocity),
     FIELD(world_mover, push_mass), FIELD(world_mover, damping), FIELD(world_mover, spin_damping),
     FIELD(world_mover, asleep), FIELD(world_mover, sleepless), FIELD(world_mover, calm),

@@ -7,11 +7,13 @@ import json
 import os
 import pickle
 import pydoc
+import re
 import shutil
 import subprocess
 import sys
 import tempfile
 import unittest
+import warnings
 from contextlib import redirect_stdout
 from pathlib import Path
 
@@ -257,6 +259,104 @@ class Poses(unittest.TestCase):
             self.assertEqual((raised.exception.code, raised.exception.index), (Code.TIMES, 700))
 
 
+class Rounding(unittest.TestCase):
+    """Poses are rounded to float32: where that moves them far, it is said."""
+    BOX = Mesh.box([0.1, 0.1, 0.1])
+    A = np.array([500000.014, 300000, 100, 0, 0, 0, 1])
+    B = A + [0.096, 0, 0, 0, 0, 0, 0]  # they overlap by 4 mm
+    ORIGIN = np.array([500000, 300000, 100, 0, 0, 0, 0])
+
+    def setUp(self) -> None:
+        self.box = Body(self.BOX)
+
+    def asked(self, a: np.ndarray, b: np.ndarray) -> dict[str, str]:
+        """What is warned of, by what is asked."""
+        world, robot = nsvcd.World(3), nsvcd.Robot([nsvcd.Joint(0)], [nsvcd.Part(self.box, 1)])
+        id, at_origin = world.add(self.box, np.float32(a)), np.zeros(7) + IDENTITY
+        proof = nsvcd.certify(self.BOX, self.BOX, np.float32([at_origin + [9, 0, 0, 0, 0, 0, 0]]))
+        many = np.stack([[b, b]] * 5)
+        part, latents = nsvcd.Part(self.box, 1), Body(self.BOX, latents=True)
+        asks = {
+            "sweep": lambda: nsvcd.sweep(self.box, self.box, a, b), "of lists": lambda: nsvcd.sweep(self.box, self.box, a.tolist(), b.tolist()),
+            "many": lambda: nsvcd.sweep(self.box, self.box, None, many), "large": lambda: nsvcd.sweep(Body.box([999, 999, 999]), self.box, a),
+            "small": lambda: nsvcd.sweep(self.box, Body.box([999, 999, 999]), None, a, scale_a=0.5),
+            "contacts": lambda: nsvcd.contacts(self.box, self.box, a, clearance=0.01),
+            "gradient": lambda: nsvcd.sweep_gradient(latents, latents, [a]), "certify": lambda: nsvcd.certify(self.BOX, self.BOX, None, [a]),
+            "verify": lambda: nsvcd_verify.verify(proof, self.BOX, self.BOX, [a]), "claim": lambda: nsvcd_verify.claim(self.BOX, self.BOX, [a]),
+            "add": lambda: world.add(self.box, a), "move": lambda: world.move(id, a), "drive": lambda: world.drive(id, a),
+            "of a world": lambda: world.sweep(self.box, a), "of an id": lambda: world.sweep(id, a), "list": lambda: world.list(id, a),
+            "joint": lambda: nsvcd.Robot([nsvcd.Joint(0, a)], [part]), "part": lambda: nsvcd.Robot([nsvcd.Joint(0)], [part._replace(pose=a)]),
+            "reach": lambda: robot.reach([0], a, 1, starts=1),
+            "plan": lambda: nsvcd.plan([latents] * 2, [[0, 1]], lambda joints: np.stack([a, b]), [0], [1], [0], [1], seeds=1)}
+        said = {}
+        for name, ask in asks.items():
+            with warnings.catch_warnings(record=True) as caught:
+                warnings.simplefilter("always")
+                ask()
+            self.assertTrue(all(each.filename == __file__ for each in caught), name)
+            said[name] = " ".join(str(each.message) for each in caught)
+        return said
+
+    def test_warned(self) -> None:
+        self.assertEqual(nsvcd.sweep(self.box, self.box, self.A - self.ORIGIN, self.B - self.ORIGIN).verdict, "hit")
+        with self.assertWarnsRegex(UserWarning, "^poses_a: rounding to float32 moves them by 0.014 m, .* a body of 0.17 m: subtract a common"):
+            self.assertEqual(nsvcd.sweep(self.box, self.box, self.A, self.B).verdict, "free")  # of the rounded ones
+        for name, words in self.asked(self.A, self.B).items():
+            self.assertRegex(words, "subtract a common origin", name)
+
+    def test_not_warned(self) -> None:
+        """Of what is near enough, and of float32, whatever it was before; of what needs no rounding, or rests."""
+        for aside in (0, 30):
+            offset = np.array([aside, aside, aside, 0, 0, 0, 0])
+            self.assertEqual(set(self.asked(self.A - self.ORIGIN + offset, self.B - self.ORIGIN + offset).values()), {""})
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            for whole in (np.float32(self.A), self.ORIGIN.astype(int) + IDENTITY, np.float32(self.A).astype(float), np.float32(self.A).tolist()):
+                nsvcd.sweep(self.box, self.box, whole)
+            nsvcd.sweep(Body.box([9999, 9999, 9999]), Body.box([9999, 9999, 9999]), self.A, self.B)
+            tiny = Body.box([1e-5, 1e-5, 1e-5])
+            nsvcd.sweep(tiny, tiny, [1e-5 / 3, 0, 0, 0.6, 0, 0, 0.8])
+            for wrong in (np.nan, np.inf):
+                self.assertRaises(Error, nsvcd.sweep, self.box, self.box, [wrong, 0, 0])
+        far = np.stack([[self.A, self.B]] * 1000)
+        far[:999] -= self.ORIGIN
+        with self.assertWarnsRegex(UserWarning, "^poses_b: .* by 0.015 m"):  # one of many
+            nsvcd.sweep(self.box, self.box, None, far)
+
+
+class FarMeshes(unittest.TestCase):
+    """Whose corners floats cannot tell apart any more."""
+
+    def test_warned(self) -> None:
+        box = Mesh.box([0.2, 0.3, 0.1])
+        place = np.array([5e5, 3e5, 0])
+        far = box.vertices + place, box.faces
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "far.obj"
+            path.write_text("\n".join([*("v %.9f %.9f %.9f" % tuple(corner) for corner in far[0]), *("f %d %d %d" % tuple(row + 1) for row in box.faces)]))
+            for call in (lambda: Body(*far), lambda: Body(far), lambda: Body(path), lambda: Mesh.load(path), lambda: nsvcd.certify(box, nsvcd.Tree(far)),
+                         lambda: Body((far[0] * 1000, far[1]), scale=0.001), lambda: nsvcd.sweep(far, box), lambda: Body(Mesh(*far)),
+                         lambda: nsvcd.certify(box, path), lambda: Body.capsule(place, place + [0, 0, 1], 0.1)):
+                with warnings.catch_warnings(record=True) as caught:
+                    warnings.simplefilter("always")
+                    call()
+                said = [str(each.message) for each in caught if "not a closed" not in str(each.message)]
+                self.assertEqual(len(said), 1)
+                self.assertRegex(said[0], "5e[+]05 m from its origin, where floats are 0.06 m apart: of a map[?] try origin=.*, of Body")
+                self.assertEqual(caught[0].filename, __file__)
+                origin = json.loads(said[0].split("origin=")[1].split(", of")[0])
+                self.assertTrue(np.abs(np.array(origin) / (1000 if origin[0] > 1e6 else 1) - place).max() < 1)
+            with warnings.catch_warnings():
+                warnings.simplefilter("error")
+                for body in (Body(path, origin=place), Body(*far, origin=place), Body(far[0] * 1000, far[1], scale=0.001, origin=place * 1000)):
+                    np.testing.assert_allclose(body.mesh.vertices, box.vertices, atol=1e-8)
+                Body(box.vertices + [200, 0, 0], box.faces)
+                Body.cloud([[5, 0, 0]], 0.1)
+                Body(Mesh.box([1e6, 1e6, 10]))
+        with self.assertWarnsRegex(UserWarning, "try origin"):  # a millimetre's hundredth apart, and a millimetre large
+            Body(box.vertices / 100 + [100, 0, 0], box.faces)
+
+
 class Urdf(unittest.TestCase):
     """The arm of examples/robot among its shelf, against svcd, which reads what urdf.py writes, and against tests/place.py."""
     FOLDER = HERE.parent / "robot"
@@ -280,6 +380,9 @@ class Urdf(unittest.TestCase):
         self.assertEqual((straight.verdict, self.arm.pair_names(straight.pair)), ("hit", ("wrist_a", "board_2")))
         route = self.arm.route(self.LOW, self.UP)
         self.assertEqual(route.status, nsvcd.RouteStatus.FOUND)
+        self.assertEqual((route.status, f"{route.status} {bool(route)}"), ("found", "found True"))
+        stuck = self.arm.route(self.arm.nearest_free(self.LOW), straight.fraction * np.subtract(self.UP, self.LOW) + self.LOW)
+        self.assertEqual((str(stuck.status), bool(stuck)), ("goal", False))
         if not SVCD.exists():
             self.skipTest("no build/svcd: not tested")
         with tempfile.TemporaryDirectory() as folder:
@@ -349,6 +452,33 @@ class Urdf(unittest.TestCase):
                 nsvcd.Robot.from_urdf(path, fixed={"left": 0.2})
         self.assertEqual(hand.check({"left": [0, 0.4]}).verdict, "free")
 
+    def test_millimetres(self) -> None:
+        """A mesh of 400 m, warned of as Mesh.load does."""
+        fore = "<link name='base'/><link name='fore'><collision><geometry><mesh filename='fore.obj'{}/></geometry></collision></link>"
+        joint = "<joint name='j' type='continuous'><parent link='base'/><child link='fore'/><limit velocity='1'/></joint>"
+        with tempfile.TemporaryDirectory() as name:
+            folder, mesh = Path(name), Mesh.box([400, 50, 50])
+            lines = [*("v {} {} {}".format(*corner) for corner in mesh.vertices), *("f {} {} {}".format(*row + 1) for row in mesh.faces)]
+            (folder / "fore.obj").write_text("\n".join(lines))
+            for scale in ("", " scale='1 -1 1'"):
+                with self.assertWarnsRegex(UserWarning, "fore: .*fore.obj: a body of 400 m: .*millimetres[?] try the URDF's scale 0.001$"):
+                    nsvcd.Robot.from_urdf(self.written(folder, fore.format(scale) + joint))
+            with self.assertWarnsRegex(UserWarning, "a body of 400 m"):
+                nsvcd.Robot.from_urdf(self.FOLDER / "arm.urdf", obstacles=self.written(folder, fore.format("")))
+            with warnings.catch_warnings():
+                warnings.simplefilter("error")
+                nsvcd.Robot.from_urdf(self.written(folder, fore.format(" scale='0.001 0.001 0.001'") + joint))
+
+    def test_two_roots(self) -> None:
+        link = "<link name='{}'><collision><geometry><box size='1 1 1'/></geometry></collision></link>"
+        text = "".join(map(link.format, "abc")) + "<joint name='j' type='continuous'><parent link='b'/><child link='c'/><limit velocity='1'/></joint>"
+        with tempfile.TemporaryDirectory() as name:
+            path = self.written(Path(name), text)
+            with self.assertRaisesRegex(ValueError, "robot.urdf: no joint reaches the link b, nor a: a robot has one root"):
+                nsvcd.Robot.from_urdf(path)
+            done = subprocess.run([sys.executable, self.FOLDER / "urdf.py", path, Path(name) / "out.txt"], capture_output=True, text=True)
+            self.assertRegex(done.stderr, "no joint reaches the link b, nor a: a robot has one root")
+
     def test_refused(self) -> None:
         link = "<link name='a'><collision><geometry><box size='1 1 1'/></geometry></collision></link>"
         floating = link + link.replace("'a'", "'b'") + "<joint name='j' type='{}'><parent link='a'/><child link='b'/>{}</joint>"
@@ -362,6 +492,9 @@ class Urdf(unittest.TestCase):
             turning = self.written(folder, floating.format("continuous", ""))
             with self.assertWarnsRegex(UserWarning, "joint j: no velocity"):
                 nsvcd.Robot.from_urdf(turning)
+            taken = self.arm.handed_over(self.UP, "board_1", "wrist_3")
+            with self.assertRaisesRegex(ValueError, "obstacles: board_1 is on link 6: an obstacle rests on link 0"):
+                nsvcd.Robot.from_urdf(self.FOLDER / "arm.urdf", obstacles=[taken])
             with self.assertRaisesRegex(ValueError, "no joint k"):
                 nsvcd.Robot.from_urdf(turning, velocity=1, fixed={"k": 0})
             with self.assertRaises(ValueError):
@@ -466,12 +599,26 @@ class Tour(unittest.TestCase):
                 pyplot.close("all")
         self.assertRegex(printed.getvalue(), "^" + "\n".join((
             "hit: free before 0.59, in contact at 0.60", "free: 197.4 mm", "4880 of 10000 hit, the first at 0.6",
-            "straight: hit wrist_a board_2", r"route: FOUND, 1.\d s", r"asleep, at heights \[0.1 0.3 0.5 0.7 0.9\]",
+            "straight: hit wrist_a board_2", r"route: found, 1.\d s", r"asleep, at heights \[0.1 0.3 0.5 0.7 0.9\]",
             r"free \d+ bytes; accepted: True")) + "\n$")
         self.assertLess(names["seconds"], 10)
 
 
 class Types(unittest.TestCase):
+    def test_readme(self) -> None:
+        """Its programs, as they stand."""
+        if not shutil.which("mypy"):
+            self.skipTest("no mypy: not tested")
+        programs = re.findall(r"^```python\n(.*?)^```", (HERE / "README.md").read_text(), re.M | re.S)
+        self.assertEqual(len(programs), 2)
+        with tempfile.TemporaryDirectory() as folder:
+            files = [Path(folder) / f"program_{k}.py" for k in range(2)]
+            for file, text in zip(files, programs):
+                file.write_text(text)
+            done = subprocess.run(["mypy", "--strict", "--cache-dir", os.devnull, *files], capture_output=True, text=True,
+                                  env={**os.environ, "MYPYPATH": str(HERE)})
+        self.assertEqual((done.returncode, done.stderr), (0, ""), done.stdout)
+
     def test_strict(self) -> None:
         if not shutil.which("mypy"):
             self.skipTest("no mypy: not tested")
@@ -493,6 +640,10 @@ class Types(unittest.TestCase):
             path = np.zeros((2, 7))
             answer = nsvcd.sweep(mug, (vertices, faces), path, [[0, 0, 1]], ask=nsvcd.Ask.FIRST, clearance=0.01)
             when: float = answer.time.high
+            one: nsvcd.Answer = nsvcd.sweep(mug, "rack.obj", [[0, 0, 1], [0, 0, 0]], ask="first", method="proof")
+            known = nsvcd.sweep(mug, other, [0, 0, 1])
+            hits: int = (nsvcd.sweep(mug, other, np.zeros((2, 5, 7))).verdict == "hit").sum()
+            earliest = nsvcd.sweep([mug, other], mug, [[0, 0, 1]]).time.high[0]
             proof: nsvcd.Certificate = nsvcd.certify(mug, "rack.obj", path, answer=answer)
             answers: Any = nsvcd.sweep([mug, other], mug, np.zeros((2, 5, 7)), threads=2)
             count: int = (answers.verdict == "hit").sum()
@@ -504,7 +655,9 @@ class Types(unittest.TestCase):
             if world.sweep(world.add(nsvcd.Mesh.box((1, 1, 1)), [0, 0, 1])).body is None: world.list(mug, nsvcd.poses(path))
         """
         wrong = ("nsvcd.sweep(mug, mug, path, ask=1)", "nsvcd.sweep(mug, mug, path, clearence=1)", "nsvcd.Body.sphere('1')",
-                 "nsvcd.sweep(1, mug)", "arm.route()", "answer.verdikt", "proof.time.high")
+                 "nsvcd.sweep(1, mug)", "arm.route()", "known.verdikt", "proof.time.high", "nsvcd.sweep(mug, mug, path, ask='frist')", "known.verdict.sum()",
+                 "nsvcd.sweep(mug, mug, method='prove')", "nsvcd.World(1).sweep(1, path, ask='frist')", "nsvcd.poses(path, 'zyx')",
+                 "nsvcd.Joint(0, kind='revolve')")
         lines = [line.strip() for line in right.strip().splitlines()]
         with tempfile.TemporaryDirectory() as folder:
             file = Path(folder) / "caller.py"

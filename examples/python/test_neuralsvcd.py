@@ -556,7 +556,7 @@ class Arrays(unittest.TestCase):
         for words, arguments, named in (
                 ("^times_a: times ", (three,), {"times_a": [0, 0.7, 0.3]}),
                 ("^times_b: times ", (None, path), {"times_b": [0, 2]}),
-                ("^poses_a: poses and count .* 65536", (np.repeat(path[:1], 65537, 0),), {}),
+                ("^poses_a: count is .* 65536", (np.repeat(path[:1], 65537, 0),), {}),
                 ("^scale_b: a scale ", (path,), {"scale_b": 1e9}),
                 ("^to is .* HIT", (path,), {"to": 0.01}),
                 ("^segments ", (path,), {"segments": 17}),
@@ -1314,6 +1314,11 @@ class Robots(unittest.TestCase):
                 robot.merge(wrong, rest=[0, 0])
             self.assertEqual(raised.exception.code, code)
         self.assertRaises(ValueError, robot.merge, [moves[0]], [0])
+        named = nsvcd.Robot([joint._replace(name=name) for joint, name in zip([*joints, nsvcd.Joint(0)], ("rail", "lift", ""))], [])
+        for motion, words in ((moves[1], "^rest: nobody moves rail, 2: "), (moves[0], "nobody moves lift, 2: ")):
+            with self.assertRaisesRegex(Error, words) as raised:
+                named.merge([motion])
+            self.assertEqual((raised.exception.code, raised.exception.where), (Code.ARGUMENT, "rest"))
 
     def test_cones(self) -> None:
         # two joints about y: the box tilts by their sum
@@ -1882,8 +1887,26 @@ class Certificates(unittest.TestCase):
                 self.assertIn(self.verify(bits, "mug", "dish_rack", free).kind, (None, "free"))
 
     def test_undecided(self) -> None:
-        made = self.certify("mug", "dish_rack", LOW, visits=1)
+        made = self.certify("mug", "dish_rack", [[0, -0.4, 0.3, *np.array([1, 2, 3, 4]) / 30 ** 0.5], [0, 0, 0.09, 0, 0, 0, 1]], visits=1)
         self.assertEqual((made.verdict, made.bytes, made.inside), ("undecided", b"", False))
+
+    def test_asks_first(self) -> None:
+        """Where it is not told an answer it asks for one, so that a hit takes next to no visits; symmetric ones took the most."""
+        wide = nsvcd.Tree(CUBE * [1.5, 0.5, 1], FACES)
+        side, turned = [*at(0, 4, 0), *at(0, 0, 0)], {"times_a": [0, 0.1, 1], "scale_a": 2}
+        for a, b, path, named in ((self.trees["mug"], self.trees["dish_rack"], LOW, {}), (wide, self.trees["box"], side, {}),
+                                  (wide, self.trees["box"], [*side, *at(0, 9, 0)], turned),
+                                  (wide, self.trees["box"], at(0, 1.51, 0), {"clearance": 0.02})):
+            for given in ((a, b), [Body(nsvcd.Mesh(*tree._mesh.kept)) for tree in (a, b)], [tree._mesh.kept for tree in (a, b)]):
+                made = nsvcd.certify(*given, path, visits=99, **named)
+                self.assertEqual(made.verdict, "hit")
+                report = nsvcd_verify.verify(made, a._mesh.kept, b._mesh.kept, path, **named)
+                self.assertEqual(report.kind, "near" if named.get("clearance") else "hit")
+        missed = nsvcd.certify(wide, self.trees["box"], side, answer=nsvcd.sweep(BOX, BOX, at(9, 0, 0)), visits=99)
+        self.assertEqual(missed.verdict, "undecided")  # of an answer that is of no use
+        bare = Body(CUBE, FACES, no_triangles=True, latents=True)  # the network is not asked
+        self.assertEqual(nsvcd.certify(bare, bare, at(0.5, 0.3, 0.1)).verdict, "hit")
+        self.assertEqual(nsvcd.certify(bare, bare, at(9, 0, 0)).verdict, "free")
 
     def test_refused(self) -> None:
         """As sweep refuses it; by nsvcd_verify it is a ValueError with its reason."""

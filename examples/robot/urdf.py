@@ -809,6 +809,9 @@ def scaled(body: Body) -> str:
 def robot_lines(robot: Robot, rules: Semantics, output: Output) -> list[str]:
     if not robot.links:
         raise ValueError("no link; xacro files are to be run through xacro first")
+    roots = [link for link in robot.links if link not in robot.above]
+    if len(roots) > 1:
+        raise ValueError(f"no joint reaches the link {roots[1]}, nor {roots[0]}: a robot has one root")
     lines = [joint_line(*joint, robot.given.velocity) for joint in robot.joints]
     lines += filter(None, (robot.mimic_line(name) for name, _, _, _ in robot.joints))
     owners = {body.name: link for link, bodies in robot.bodies.items() for body in bodies}
@@ -859,11 +862,8 @@ def convert(urdf: str, srdf: str | None, scenes: list[tuple[str, str]], out: str
     known = set(robot.elements) | rules.virtual | {name for _, world in worlds for name in world.elements}
     for name in set(given.held) - known:
         raise ValueError(f"--fixed {name}: there is no such joint")
-    roots = [link for link in robot.links if link not in robot.above]
     output = Output(out)
     with about(urdf):
-        if len(roots) > 1:
-            raise ValueError(f"no joint reaches the link {roots[1]}, nor {roots[0]}: a robot has one root")
         lines = ["nsvcd-plans 1", *robot_lines(robot, rules, output)]
     bodies = {body.name for found in robot.bodies.values() for body in found}
     if len(set(name for name, _ in scenes)) < len(scenes):

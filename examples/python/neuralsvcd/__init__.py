@@ -40,13 +40,16 @@ POSES AND MOTIONS
   an SE3 of pinocchio or spatialmath, or a Pose or Transform of ROS. Quaternions are w x y z in MuJoCo: poses(qpos, order="wxyz").
   Rotations apart from positions: poses(data.geom_xpos, rotations=data.geom_xmat); examples/python/mujoco_scene.py makes bodies of
   geoms. What is returned is x y z w: poses(answer.safe.a, to="wxyz").
-  Arrays may be of any numeric type and stride. They are copied: as float32, those of robots as float64.
+  Arrays may be of any numeric type and stride. They are copied: meshes and poses as float32, with a warning where rounding moves
+  them much, far from the origin; of robots, joints' values as float64.
 
 ANSWERS
-  answer.verdict is free, hit or undecided, a word that is compared as a string; `if answer:` is true of what is not free.
-  answer.why says why something is undecided: it came too near to tell, or the work was spent (work=). answer.time brackets a
-  contact, answer.distance the least distance (ask="distance", to=0.001), answer.contacts tells where, answer.safe where the
-  bodies may go. answer.plot(a, b, path) draws it, if matplotlib is there.
+  answer.verdict is free, hit or undecided, a word that is compared as a string; so is route.status. `if answer:` is true of what
+  is not free, and so with World.sweep and Robot.check; `if route:` of one that was found; `if report:`, of nsvcd_verify, of a
+  proof that all is free. Other tuples, a Certificate, are always true. answer.why says why something is undecided: it came too
+  near to tell, or the work was spent (work=). answer.time brackets a contact, answer.distance the least distance (ask="distance",
+  to=0.001), answer.contacts tells where, answer.safe where the bodies may go. answer.plot(a, b, path) draws it, if matplotlib is
+  there.
 
 MANY AT ONCE
   Of n motions (n, k, 7), (n, k, 3) or (n, k, 4, 4), sweep answers in one call, with an array of records:
@@ -93,8 +96,9 @@ THREADS
   several threads wait for the lock: ask them in one call.
 
 COSTS
-  A question takes some microseconds, of which Python's part is 8 to 10; in one call with many, half a microsecond
-  (examples/python/overhead.py). Encoding takes far longer: what is asked about again is to be a Body.
+  A question takes some microseconds, of which Python's part is 10 to 12; in one call with many, half a microsecond
+  (examples/python/overhead.py). ask="first" takes three to five times as long, ask="distance" ten to twenty; of either, one in
+  hundreds takes milliseconds. Encoding takes far longer: what is asked about again is to be a Body.
 
 NAMES
   meshes       Mesh, Mass, MeshLike

@@ -18,7 +18,7 @@ from .errors import _check_question
 from ._arrays import _address, Floats, _floats, _memory
 from .bodies import Body, _body_of
 from .meshes import Mesh
-from .motions import _Motion
+from .motions import _Motion, _warn_of_rounding
 
 
 class _Workspace(threading.local):
@@ -103,6 +103,11 @@ class _Side(NamedTuple):
             lengths.add(len(self.scales))
         return lengths
 
+    def size(self) -> float:
+        """Of the smallest."""
+        bodies = [self.bodies] if isinstance(self.bodies, Body) else self.bodies
+        return min((body._size for body in bodies), default=0.0) * float(np.abs(self.scales).min(initial=np.inf))
+
     def write(self, movers: NDArray[Any]) -> None:
         bodies = [self.bodies] if isinstance(self.bodies, Body) else self.bodies
         movers["body"] = [body._address for body in bodies]
@@ -146,6 +151,9 @@ def _sweep_many(a: Any, b: Any, motions: tuple[_Motion, _Motion], scales: tuple[
     _bytes_of(questions)[:] = np.frombuffer(asked, np.uint8)
     side_a.write(questions["a"])
     side_b.write(questions["b"])
+    size = min(side_a.size(), side_b.size())
+    for side in (side_a, side_b):
+        _warn_of_rounding(side.motion.given, side.motion.poses, size, f"poses_{side.name}")
     ends = np.linspace(0, len(questions), 8 * threads + 1 if threads > 1 else 2).astype(int).tolist()
 
     def answer(first: int, last: int) -> int:

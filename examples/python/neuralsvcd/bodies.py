@@ -9,7 +9,7 @@ import os
 from collections.abc import Callable
 from ctypes import byref, c_float, c_void_p
 from pathlib import Path
-from typing import Any, NamedTuple, Optional, Union
+from typing import Any, cast, NamedTuple, Optional, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -19,7 +19,7 @@ from ._structs import _EncodeOptions, _PROGRESS
 from ._library import _library
 from .errors import _check, _check_of, Error
 from ._arrays import _address, _cancels, FilePath, _filled, _floats, _memory, _number, _numeric, _vector, Vector
-from .meshes import _c_mesh, Mesh, MeshLike, _surface_of, _warn
+from .meshes import _c_mesh, Mesh, MeshLike, _surface_of, _warn, _warn_if_far
 
 
 def _check_radius(radius: float) -> None:
@@ -93,10 +93,11 @@ class Body:
     Encoding takes far longer than a question: what is asked about again is to be kept. The mesh is kept too, as `mesh`.
     """
 
-    __slots__ = ("_memory", "_address", "_mesh", "__weakref__")
+    __slots__ = ("_memory", "_address", "_mesh", "_size", "__weakref__")
     _memory: NDArray[np.uint8]
     _address: int
     _mesh: Optional[Mesh]
+    _size: float  # metres, of a ball about it
 
     def __init__(self, mesh: Union[MeshLike, ArrayLike], faces: Optional[ArrayLike] = None, *, scale: float = 1,
                  origin: ArrayLike = (0, 0, 0), patches: int = 0, patch_radius: float = 0, convex_radius: float = 0,
@@ -114,8 +115,11 @@ class Body:
             raise caught[0]
         _check(code)
         self._take(body, Mesh(*c_mesh.kept))
-        if isinstance(mesh, (str, os.PathLike)) and not open and self.facts.open_edges:
-            _warn(f"{os.fspath(mesh)}: not a closed surface: {self.facts.open_edges} open edges; what is inside of it is not known "
+        is_file = isinstance(mesh, (str, os.PathLike))
+        if not is_file:
+            _warn_if_far(c_mesh.kept[0], self._size, scale, origin, "mesh")
+        if is_file and not open and self.facts.open_edges:
+            _warn(f"{os.fspath(cast(FilePath, mesh))}: not a closed surface: {self.facts.open_edges} open edges; what is inside of it is not known "
                   "to be inside; open=True says that it is a sheet")
 
     @classmethod
@@ -173,6 +177,7 @@ class Body:
         self._address = _address(memory)
         memory.flags.writeable = False
         self._memory = memory
+        self._size = 2 * _library.nsvcd_body_describe(self._address).radius
 
     @classmethod
     def from_bytes(cls, data: Any) -> Body:

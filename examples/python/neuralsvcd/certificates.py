@@ -2,21 +2,25 @@
 """Answers that are proven to others."""
 from __future__ import annotations
 
+import contextlib
 import ctypes
+from collections.abc import Sequence
 from ctypes import byref, c_void_p
 from typing import Any, NamedTuple, Optional, Union
 
+import numpy as np
 from numpy.typing import ArrayLike
 
 from .words import NO_TRIANGLE, _number_of, Verdict, _VERDICTS, Why, _WHYS
 from ._structs import _Answer, _Certificate, _CertifyOptions
 from ._library import _library
-from .errors import _check
+from .errors import _check, Error
 from ._arrays import _address, _filled, _memory
 from .bodies import Body
-from .meshes import _c_mesh, MeshLike, _surface_of
+from .meshes import _c_mesh, Mesh, MeshLike, _surface_of
 from .answers import Answer
-from .sweeps import _motions, _question, _question_of
+from .motions import _Motion
+from .sweeps import _motions, _question, _question_of, sweep
 
 
 class Tree:
@@ -25,15 +29,18 @@ class Tree:
     mesh, faces  as Body has them: a path, (vertices, faces), or what has these
     """
 
-    __slots__ = ("_mesh", "_memory", "_address")
+    __slots__ = ("_mesh", "_memory", "_address", "_size", "_body")
 
     def __init__(self, mesh: Union[MeshLike, ArrayLike], faces: Optional[ArrayLike] = None) -> None:
         self._mesh = _c_mesh(*_surface_of(mesh, faces))
+        vertices = self._mesh.kept[0]
+        self._size = float(np.linalg.norm(np.ptp(vertices, axis=0))) if len(vertices) else 0.0
         size = _library.nsvcd_tree_size(byref(self._mesh))
         self._memory = _memory(size)
         tree = c_void_p()
         _check(_library.nsvcd_tree_build(byref(self._mesh), _address(self._memory), size, byref(tree)))
         self._address = tree.value
+        self._body: Optional[Body] = None  # encoded when it is asked about
 
     def __reduce__(self) -> tuple[Any, ...]:
         return Tree, self._mesh.kept
@@ -53,6 +60,31 @@ def _tree_of(given: Any, name: str) -> Tree:
         return Tree(given)
     except TypeError as error:
         raise TypeError(f"{name}: a Tree or a mesh is needed: {error}") from None
+
+
+def _body_to_ask(given: Any) -> Optional[Body]:
+    """None: it cannot be asked about, and a Tree says why."""
+    try:
+        if isinstance(given, Tree):
+            given._body = body = given._body or Body(Mesh(*given._mesh.kept))
+        else:
+            body = given if isinstance(given, Body) else Body(given)
+    except (Error, TypeError):
+        return None
+    return body if body.facts.stored_triangles else None
+
+
+def _looked_at(bodies: Sequence[Optional[Body]], motions: tuple[_Motion, _Motion], scale_a: float, scale_b: float,
+                  clearance: float) -> Optional[Answer]:
+    """Where certify looks first. What is refused, it refuses itself."""
+    if bodies[0] is None or bodies[1] is None:
+        return None
+    poses, times = ([motion[k] for motion in motions] for k in (0, 1))
+    with contextlib.suppress(Error):
+        answer: Answer = sweep(bodies[0], bodies[1], *poses, times_a=times[0], times_b=times[1], scale_a=scale_a, scale_b=scale_b,
+                               clearance=clearance)
+        return answer
+    return None
 
 
 class Certificate(NamedTuple):
@@ -80,13 +112,18 @@ def certify(a: TreeLike, b: TreeLike, poses_a: Optional[ArrayLike] = None, poses
 
     a, b       each a Tree, a Body that was made of a mesh, or what stands for a mesh; whoever checks needs body.mesh
     clearance  metres: to come as near as this is a hit
-    answer     of sweep, where a hit is looked for first; it is not believed
+    answer     of sweep, where a hit is looked for first; it is not believed. None: certify asks first, of meshes that are
+               encoded for that: to certify many motions, give Bodies or Trees
     visits     steps that may be taken; 1000000
     """
-    trees = _tree_of(a, "a"), _tree_of(b, "b")
-    question = _question((None, None), _motions(poses_a, poses_b, times_a, times_b), scale_a, scale_b,
-                         _question_of(clearance=clearance))
+    bodies = [None if answer is not None else _body_to_ask(given) for given in (a, b)]
+    trees = [_tree_of(given if body is None or isinstance(given, Tree) else body, name)
+             for given, body, name in zip((a, b), bodies, "ab")]
+    motions = _motions(poses_a, poses_b, times_a, times_b)
+    question = _question(trees, motions, scale_a, scale_b, _question_of(clearance=clearance))
     options = _filled(_CertifyOptions, visits=visits)
+    if answer is None:
+        answer = _looked_at(bodies, motions, scale_a, scale_b, clearance)
     if answer is not None:
         named = answer.nearest
         triangles = (NO_TRIANGLE if k is None else k for k in (named.triangle_a, named.triangle_b))

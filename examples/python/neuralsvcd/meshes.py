@@ -57,7 +57,7 @@ class Mesh(NamedTuple):
     @classmethod
     def load(cls, path: FilePath, scale: float = 1, origin: ArrayLike = (0, 0, 0)) -> Mesh:
         """The mesh in an OBJ, STL, PLY or GLB file. OSError if it cannot be read. Warns of what is larger than 30 m, or
-        smaller than 1 mm.
+        smaller than 1 mm, or far from its origin.
 
         scale   to metres: 0.001 of millimetres
         origin  (3) in the file's units: the place that becomes the mesh's origin, taken off in double; of a map
@@ -65,6 +65,7 @@ class Mesh(NamedTuple):
         name = os.fspath(path)
         mesh = cls.parse(Path(path).read_bytes(), name, scale, origin)
         _warn_of_size(mesh, scale, name)
+        _warn_if_far(mesh.vertices, 0, scale, origin, name)
         return mesh
 
     @classmethod
@@ -198,14 +199,25 @@ def _surface_of(given: Any, faces: Optional[ArrayLike] = None, scale: float = 1,
     return vertices, faces
 
 
-def _warn_of_size(mesh: Mesh, scale: float, name: str) -> None:
+def _warn_of_size(mesh: Mesh, scale: float, name: str, word: str = "scale=") -> None:
     """What is larger than 30 m or smaller than 1 mm is hardly meant: warned of as by `svcd info`."""
     extent = float(np.ptp(mesh.vertices, axis=0).max())
     if 0.001 <= extent <= 30:
         return
     is_large = extent > 30
-    question = "are these millimetres? try scale=" if is_large else "is it too small by a thousand? try scale="
-    _warn(f"{name}: a body of {extent:.4g} m: {question}{scale / 1000 if is_large else scale * 1000:g}")
+    question = "are these millimetres? try" if is_large else "is it too small by a thousand? try"
+    _warn(f"{name}: a body of {extent:.4g} m: {question} {word}{scale / 1000 if is_large else scale * 1000:g}")
+
+
+def _warn_if_far(vertices: Floats, size: float, scale: float, origin: ArrayLike, name: str) -> None:
+    """So far from its origin that floats are a millimetre apart there, as `svcd info` warns, or by much of its size, metres."""
+    low, high = vertices.min(0).astype(np.float64), vertices.max(0).astype(np.float64)
+    off, extent = float(np.maximum(high, -low).max()), max(float((high - low).max()), size)
+    apart = off / 2 ** 23
+    if (apart >= 0.001 and off >= 4 * extent) or apart > 2e-4 * extent:
+        centre = np.rint((low + high) / 2 / scale + origin).tolist()
+        _warn(f"{name}: {off:.4g} m from its origin, where floats are {apart:.2g} m apart: of a map? try origin={centre}, of Body "
+              "or Mesh.load")
 
 
 def _warn(text: str) -> None:

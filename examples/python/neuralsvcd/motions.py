@@ -4,19 +4,21 @@ from __future__ import annotations
 
 import math
 from ctypes import c_float
-from typing import Any, NamedTuple, Optional
+from typing import Any, Literal, NamedTuple, Optional
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ._structs import _Pose
 from ._arrays import Doubles, _floats, Floats
+from .meshes import _warn
 
 
 _ORDERS = ("xyzw", "wxyz")
+_Order = Literal["xyzw", "wxyz"]
 
 
-def poses(given: Any, order: str = "xyzw", *, rotations: Any = None, to: str = "xyzw") -> Doubles:
+def poses(given: Any, order: _Order = "xyzw", *, rotations: Any = None, to: _Order = "xyzw") -> Doubles:
     """Poses (..., 7), as all functions here take and return them: x y z in metres, unit quaternion x y z w.
 
     given      (..., 7), (..., 3) positions, or (..., 4, 4) rigid matrices, which take points as columns; or what is a pose
@@ -148,9 +150,10 @@ def _of_matrices(given: NDArray[Any], name: str) -> Doubles:
 
 
 class _Motion(NamedTuple):
-    """(k, 7), and (k) or None; of many motions (n, k, 7) or (n, k). poses None: at rest at the origin."""
+    """(k, 7), and (k) or None; of many motions (n, k, 7) or (n, k). poses None: at rest at the origin. given: rounded to poses."""
     poses: Optional[Floats]
     times: Optional[Floats]
+    given: Any = None
 
     def are_many(self) -> bool:
         return self.poses is not None and (self.poses.ndim > 2 or self.times is not None and self.times.ndim > 1)
@@ -169,11 +172,31 @@ def _motion(poses: Optional[ArrayLike], times: Optional[ArrayLike], suffix: str 
     if not kept.shape[-2]:
         raise ValueError(f"poses{suffix}: no pose; None is at rest at the origin")
     if times is None:
-        return _Motion(kept, None)
+        return _Motion(kept, None, rows)
     each = () if one or np.ndim(times) == 1 else (None,)
-    return _Motion(kept, _floats(times, (*each, kept.shape[-2]), f"times{suffix}"))
+    return _Motion(kept, _floats(times, (*each, kept.shape[-2]), f"times{suffix}"), rows)
 
 
-def _pose_of(pose: ArrayLike, name: str) -> Any:
-    row = _floats(_rows(pose, name), (7,), name).tolist()
+def _warn_of_rounding(given: Any, kept: Optional[Floats], size: float, name: str) -> None:
+    """Poses as they were given, and as float32, which moves them by little against a body of so many metres, unless it is far
+    from the origin."""
+    if kept is None or given.dtype == np.float32 or not kept.size:
+        return
+    flat = kept.ravel()
+    most = math.sqrt(flat.dot(flat)) if flat.size < 100 else max(flat.max(), -flat.min())  # no less than any; the first costs less
+    if most * 2.0 ** -24 <= 1e-4 * size:
+        return
+    with np.errstate(invalid="ignore"):  # the library refuses what is not finite
+        off = float(np.abs(kept[..., :3] - given[..., :3]).max())
+    if off > 1e-4 * size:
+        _warn(f"{name}: rounding to float32 moves them by {off:.2g} m, which is much for a body of {size:.2g} m: subtract a common "
+              "origin from all poses first")
+
+
+def _pose_of(pose: ArrayLike, name: str, size: float = math.inf) -> Any:
+    """size: of the body that it places."""
+    given = _rows(pose, name)
+    kept = _floats(given, (7,), name)
+    _warn_of_rounding(given, kept, size, name)
+    row = kept.tolist()
     return _Pose((c_float * 3)(*row[:3]), (c_float * 4)(*row[3:]))

@@ -11,7 +11,7 @@ from typing import Any, NamedTuple, Optional
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .words import LEAVE_OUT, PlanStatus
+from .words import LEAVE_OUT, _PLANS, PlanStatus
 from ._structs import (
     _MAX_VIA_POINTS, _PLACE, _PLAN_PROGRESS, _PlanAnswer, _PlanOptions, _PlanProblem, _PlanProgress, _PlanStage,
     _struct)
@@ -19,7 +19,7 @@ from ._library import _library
 from .errors import _check
 from ._arrays import _address, _cancels, Floats, _floats, _indices, _memory, _filled, _numeric
 from .bodies import _body_of, BodyLike
-from .motions import _rows
+from .motions import _rows, _warn_of_rounding
 from .sweeps import _question_of
 
 
@@ -74,7 +74,7 @@ class Plan(NamedTuple):
     """nsvcd_plan_answer, and the trajectory.
 
     control       (M + 2, F) start, via points, goal: see spline
-    status        CONVERGED: within the limits, and proven free where bodies have triangles, but for `deviation`
+    status        converged: within the limits, and proven free where bodies have triangles, but for `deviation`
     collides      by the last check, or of the start or the goal where the status says so
     joint, pair   that leaves its limits; of the greatest logit; or None
     logit, time   the greatest of the last check, and when
@@ -141,12 +141,17 @@ def plan(bodies: Sequence[Optional[BodyLike]], pairs: ArrayLike, kinematics: Cal
     addresses = (c_void_p * len(kept))(*(c_void_p(body._address if body else None) for body in kept))
     met = _indices(pairs, 2, "pairs")
     caught: list[BaseException] = []
+    looked_at: list[str] = []
+    smallest = min((body._size for body in kept if body), default=math.inf)
 
     def call(function: Callable[[Floats], ArrayLike], name: str, posed: Any, given: int, out: int, *shape: int) -> None:
         target = _view(out, *shape)
         try:
-            target[:] = np.nan if caught else _numeric(
-                posed(function(_view(given, joints).copy()), name), shape, name)
+            told = None if caught else _numeric(posed(function(_view(given, joints).copy()), name), shape, name)
+            target[:] = np.nan if told is None else told
+            if told is not None and posed is _rows and not looked_at:  # the first poses, for all
+                looked_at.append(name)
+                _warn_of_rounding(told, target, smallest, name)
         except BaseException as error:  # ctypes would swallow it
             caught.append(error)
             target[:] = np.nan
@@ -181,6 +186,6 @@ def plan(bodies: Sequence[Optional[BodyLike]], pairs: ArrayLike, kinematics: Cal
         raise caught[0]
     _check(code)
     joint, pair = (None if index == LEAVE_OUT else index for index in (answer.joint, answer.pair))
-    return Plan(control[:answer.via_points + 2].copy(), PlanStatus(answer.status), bool(answer.collides), joint, pair,
+    return Plan(control[:answer.via_points + 2].copy(), _PLANS[answer.status], bool(answer.collides), joint, pair,
                 answer.logit, answer.time, answer.deviation, answer.cost, answer.smoothness, answer.seeds, answer.iterations,
                 answer.trajectories, answer.sweeps)

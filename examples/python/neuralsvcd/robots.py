@@ -12,13 +12,13 @@ from typing import Any, NamedTuple, Optional, Union
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .words import JointKind, LEAVE_OUT, _number_of, RouteStatus, Verdict, _VERDICTS, Why, _WHYS
+from .words import Code, JointKind, _KindWord, LEAVE_OUT, _number_of, _ROUTES, RouteStatus, Verdict, _VERDICTS, Why, _WHYS
 from ._structs import (
     _Allowance, _CheckAnswer, _CheckOptions, _Cone, _Joint, _JointMotion, _NearestFreeOptions, _PairCounts, _Part,
     _PartialMotion, _Proximity, _ProximityOptions, _ReachAnswer, _ReachOptions, _ReachProblem, _RouteAnswer,
     _RouteOptions, _RouteProblem, _Scene, _STOP)
 from ._library import _library
-from .errors import _check
+from .errors import _check, Error
 from ._arrays import (
     _address, _cancels, _doubles, Doubles, FilePath, _filled, Floats, _floats, _IDENTITY, _indices, _memory, _number,
     _vector, Vector)
@@ -43,7 +43,7 @@ class Joint(NamedTuple):
     parent: int
     origin: ArrayLike = _IDENTITY
     axis: ArrayLike = (0.0, 0.0, 1.0)
-    kind: JointKind = JointKind.REVOLUTE
+    kind: _KindWord = JointKind.REVOLUTE
     low: float = -math.pi
     high: float = math.pi
     speed: float = 0
@@ -150,7 +150,9 @@ class Reached(NamedTuple):
 class Route(NamedTuple):
     """nsvcd_route_answer. route.at(times) are its joints, route.plot(robot) draws it.
 
-    status         FOUND; LIMIT, STOPPED: it was given up; START, GOAL: that is not free, and `check` says why
+    As a condition it is that one was found.
+
+    status         found; limit, stopped: it was given up; start, goal: that is not free, and `check` says why
     goal           the index of the one that is reached, or None
     points, times  (2 pieces + 1, F) and (pieces + 1) seconds: Bezier pieces of degree 2, for `Robot.check`; None unless FOUND
     stops          times in between at which it rests
@@ -169,6 +171,9 @@ class Route(NamedTuple):
     checks: int
     proven: int
     looks: int
+
+    def __bool__(self) -> bool:
+        return self.status is RouteStatus.FOUND
 
     def plot(self, robot: Robot, count: int = 6, *, axes: Any = None) -> Any:
         """Draws a robot at so many times of the route into axes of matplotlib, projection="3d"; None: into a new figure.
@@ -222,7 +227,7 @@ class Robot:
 
         arm = Robot.from_urdf("arm.urdf", srdf="arm.srdf", obstacles="shelf.urdf")
         route = arm.route({"pan": -2.6, "lift": -0.7, ...}, goal)
-        if route.status == RouteStatus.FOUND: send(route.at(np.arange(0, route.duration, 0.01)))
+        if route: send(route.at(np.arange(0, route.duration, 0.01)))
 
     Configurations are arrays (F) of all joints, radians and metres, in float64; or, where joints have names, what maps each
     name to its value, or to (n) of them; joints that mimic others may be left out.
@@ -244,14 +249,15 @@ class Robot:
         self.joint_names = tuple(joint.name for joint in joints)
         self.part_names = tuple(part.name for part in parts)
         self._mimics = [(k, j.mimic, j.multiplier, j.offset) for k, j in enumerate(joints) if j.mimic is not None]
+        self._bodies = [_body_of(part.body, "body") for part in parts]
+        self._size = min((body._size * (part.scale or 1) for body, part in zip(self._bodies, parts)), default=math.inf)
         self._joints = (_Joint * max(len(joints), 1))(*(
-            _Joint(_number_of(JointKind(j.kind)), _number(c_uint32, j.parent, "parent"), _pose_of(j.origin, "origin"),
+            _Joint(_number_of(JointKind(j.kind)), _number(c_uint32, j.parent, "parent"), _pose_of(j.origin, "origin", self._size),
                    (c_float * 3)(*_floats(j.axis, (3,), "axis").tolist()), j.low, j.high, j.speed, j.acceleration,
                    0 if j.mimic is None else _number(c_uint32, j.mimic + 1, "mimic"), j.multiplier, j.offset)
             for j in joints))
-        self._bodies = [_body_of(part.body, "body") for part in parts]
         self._parts = (_Part * max(len(parts), 1))(*(
-            _Part(body._address, _number(c_uint32, part.link, "link"), _pose_of(part.pose, "pose"), part.scale)
+            _Part(body._address, _number(c_uint32, part.link, "link"), _pose_of(part.pose, "pose", self._size), part.scale)
             for body, part in zip(self._bodies, parts)))
         if clearances is not None and pairs is not None:
             self._clearances = _floats(clearances, (len(_indices(pairs, 2, "pairs")),), "clearances")
@@ -425,7 +431,7 @@ class Robot:
         out = np.empty((most, self.joint_count))
         problem, answer = _ReachProblem(start=_address(row)), _ReachAnswer()
         problem.link, problem.target_link = self._link(link, "link"), self._link(target_link, "target_link")
-        problem.tool, problem.target = _pose_of(tool, "tool"), _pose_of(target, "target")
+        problem.tool, problem.target = _pose_of(tool, "tool", self._size), _pose_of(target, "target", self._size)
         problem.half[:] = _floats(half, (3,), "half").tolist()
         problem.free_axis[:] = _floats(free_axis, (3,), "free_axis").tolist()
         stays = self._held(held)
@@ -464,7 +470,7 @@ class Robot:
     def merge(self, motions: Sequence[Motion], rest: Optional[Joints] = None) -> Motion:
         """Motions of different joints, each on a clock of its own, as one of all joints: nsvcd_merge_motions.
 
-        rest  (F) where joints are that none of them moves
+        rest  (F) where joints are that none of them moves; None: there are none
         `check(m.points, degree=m.degree, times=m.times, to_time=0.001)` of the result m finds the first conflict.
         """
         kept: list[Any] = []
@@ -475,6 +481,9 @@ class Robot:
             row.motion = _motion_of(motion.points, len(joints), motion.degree, motion.times, kept)
             row.joints, row.joint_count = _address(joints), len(joints)
             row.delay = motion.delay
+        moved = {joint for motion in motions for joint in np.asarray(motion.joints).reshape(-1).tolist()}
+        if rest is None and (left := [name or str(k) for k, name in enumerate(self.joint_names) if k not in moved]):
+            raise Error(Code.ARGUMENT, "rest", reason=f"nobody moves {', '.join(left)}: where it is has to be told")
         resting = None if rest is None else _doubles(self._rows(rest, "rest"), (self.joint_count,), "rest")
         size = _library.nsvcd_merge_motions_size(rows, len(motions), self.joint_count)
         memory = _memory(size)
@@ -551,13 +560,14 @@ class Robot:
         _check(code)
         points: Optional[Doubles] = None
         times: Optional[Doubles] = None
-        is_found = answer.status == RouteStatus.FOUND
+        status = _ROUTES[answer.status]
+        is_found = status is RouteStatus.FOUND
         if is_found:
             count = answer.motion.pieces
             shape = (2 * count + 1, self.joint_count)
             numbers = (c_double * math.prod(shape)).from_address(answer.motion.points)
             points = np.frombuffer(numbers).reshape(shape).copy()
             times = np.frombuffer((c_double * (count + 1)).from_address(answer.motion.times)).copy()
-        return Route(RouteStatus(answer.status), answer.goal if is_found else None, points, times, answer.stops,
+        return Route(status, answer.goal if is_found else None, points, times, answer.stops,
                      answer.duration, answer.unhindered, _checked(answer.check), answer.nodes, answer.checks,
                      answer.proven, answer.looks)

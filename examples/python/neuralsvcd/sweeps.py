@@ -5,18 +5,18 @@ from __future__ import annotations
 import functools
 from collections.abc import Sequence
 from ctypes import byref, c_float, c_int, c_size_t
-from typing import Any, NamedTuple, Optional, Union, cast
+from typing import Any, NamedTuple, Optional, Union, cast, overload
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .words import Ask, Method, Model, Precision
+from .words import Ask, _AskWord, Method, _MethodWord, Model, _ModelWord, Precision, _PrecisionWord
 from ._structs import _Answer, _Contact, _MAX_CONTACTS, _NetworkOptions, _Question
 from ._library import _library
 from .errors import _check_question
 from ._arrays import _address, _filled, Floats, _memory
 from .bodies import Body, _body_of, BodyLike
-from .motions import _Motion, _motion
+from .motions import _Motion, _motion, _warn_of_rounding
 from .batches import _are_many, _sweep_many, _workspace
 from .answers import Answer, _answer_of, Contact, _CONTACT, _contact_of
 
@@ -69,11 +69,14 @@ def _motions(poses_a: Optional[ArrayLike], poses_b: Optional[ArrayLike], times_a
 
 
 def _question(bodies: Sequence[Any], motions: tuple[_Motion, _Motion], scale_a: float, scale_b: float, asked: Any) -> Any:
-    """bodies: two, or None each, where they are none of the library's."""
+    """bodies: two, or Trees, which are none of the library's."""
     question = _Question.from_buffer_copy(asked)
-    addresses = [body._address if body else None for body in bodies]
-    question.a = _mover(addresses[0], motions[0], scale_a, "a")
-    question.b = _mover(addresses[1], motions[1], scale_b, "b")
+    a, b = (body._address if isinstance(body, Body) else None for body in bodies)
+    question.a = _mover(a, motions[0], scale_a, "a")
+    question.b = _mover(b, motions[1], scale_b, "b")
+    size = min(bodies[0]._size * abs(scale_a), bodies[1]._size * abs(scale_b))
+    _warn_of_rounding(motions[0].given, motions[0].poses, size, "poses_a")
+    _warn_of_rounding(motions[1].given, motions[1].poses, size, "poses_b")
     question.kept = motions, bodies
     return question
 
@@ -83,15 +86,36 @@ def _two_bodies(a: Any, b: Any) -> tuple[Body, Body]:
     return first, first if b is a else _body_of(b, "b")
 
 
+_One = Union[None, Sequence[float], Sequence[Sequence[float]]]  # of which a type tells that it is no more than one motion
+
+
+@overload
+def sweep(a: BodyLike, b: BodyLike, poses_a: _One = ..., poses_b: _One = ..., *, times_a: Optional[Sequence[float]] = ...,
+          times_b: Optional[Sequence[float]] = ..., scale_a: float = ..., scale_b: float = ..., ask: _AskWord = ..., to: float = ...,
+          to_time: float = ..., clearance: float = ..., slop: float = ..., tolerance: float = ..., manifold: bool = ...,
+          surfaces: bool = ..., method: _MethodWord = ..., work: int = ..., segments: int = ..., pairs: int = ...,
+          model: _ModelWord = ..., precision: _PrecisionWord = ..., recall: float = ..., inflate: float = ...,
+          threads: int = ...) -> Answer: ...
+
+
+@overload
+def sweep(a: Union[BodyLike, Sequence[BodyLike]], b: Union[BodyLike, Sequence[BodyLike]], poses_a: Optional[ArrayLike] = ...,
+          poses_b: Optional[ArrayLike] = ..., *, times_a: Optional[ArrayLike] = ..., times_b: Optional[ArrayLike] = ...,
+          scale_a: ArrayLike = ..., scale_b: ArrayLike = ..., ask: _AskWord = ..., to: float = ..., to_time: float = ...,
+          clearance: float = ..., slop: float = ..., tolerance: float = ..., manifold: bool = ..., surfaces: bool = ...,
+          method: _MethodWord = ..., work: int = ..., segments: int = ..., pairs: int = ..., model: _ModelWord = ...,
+          precision: _PrecisionWord = ..., recall: float = ..., inflate: float = ..., threads: int = ...) -> Any: ...
+
+
 def sweep(a: Union[BodyLike, Sequence[BodyLike]], b: Union[BodyLike, Sequence[BodyLike]],
           poses_a: Optional[ArrayLike] = None, poses_b: Optional[ArrayLike] = None, *,
           times_a: Optional[ArrayLike] = None, times_b: Optional[ArrayLike] = None, scale_a: ArrayLike = 1,
           scale_b: ArrayLike = 1,
-          ask: str = "hit", to: float = 0, to_time: float = 0, clearance: float = 0, slop: float = 0,
-          tolerance: float = 0, manifold: bool = False, surfaces: bool = False, method: str = "default",
-          work: int = 0, segments: int = 0, pairs: int = 0, model: str = "default", precision: str = "float",
+          ask: _AskWord = "hit", to: float = 0, to_time: float = 0, clearance: float = 0, slop: float = 0,
+          tolerance: float = 0, manifold: bool = False, surfaces: bool = False, method: _MethodWord = "default",
+          work: int = 0, segments: int = 0, pairs: int = 0, model: _ModelWord = "default", precision: _PrecisionWord = "float",
           recall: float = 0, inflate: float = 0,
-          threads: int = 1) -> Union[Answer, Any]:
+          threads: int = 1) -> Any:
     """Do two bodies hit each other? And when first: ask="first". Of many motions at once: the same, in one call.
 
     a, b              each a Body, or what stands for a mesh, which is encoded for this call alone: see Body
@@ -101,9 +125,11 @@ def sweep(a: Union[BodyLike, Sequence[BodyLike]], b: Union[BodyLike, Sequence[Bo
     scale_a, scale_b  of the bodies, about their origins, 1e-6 to 1e6
 
     What is asked, and how; of what is 0 the default is behind the semicolon:
-    ask         hit: do they hit at all? first: and when first? distance: and how near do they come?
+    ask         hit: do they hit at all? first: and when first? distance: and how near do they come? These take some 4 and
+                15 times as long
     to          metres. first: nothing moves farther than this from time.low to time.high; distance: how wide the
-                bracket may be; a thousandth of the smaller body's radius
+                bracket may be, to float rounding, some 2e-6 of how large and how far apart they are; a thousandth of the
+                smaller body's radius
     to_time     first: the same as a share of the motion, up to 1
     clearance   metres: to come as near as this is a hit
     slop        metres: a contact at the start that is no deeper does not count
@@ -176,14 +202,14 @@ class Gradient(NamedTuple):
 
 def sweep_gradient(a: BodyLike, b: BodyLike, poses_a: Optional[ArrayLike] = None, poses_b: Optional[ArrayLike] = None, *,
                    times_a: Optional[ArrayLike] = None, times_b: Optional[ArrayLike] = None, scale_a: float = 1,
-                   scale_b: float = 1, ask: str = "hit", segments: int = 0, pairs: int = 0, model: str = "default",
-                   precision: str = "float", recall: float = 0, inflate: float = 0) -> Gradient:
+                   scale_b: float = 1, ask: _AskWord = "hit", segments: int = 0, pairs: int = 0, model: _ModelWord = "default",
+                   precision: _PrecisionWord = "float", recall: float = 0, inflate: float = 0) -> Gradient:
     """As sweep, by the network, with derivatives of the logit, or of the distance: ask="distance". They are zero where
     the network had nothing to look at. Both bodies need latents."""
     question = _question(_two_bodies(a, b), _motions(poses_a, poses_b, times_a, times_b), scale_a, scale_b, _asked(
         ask, 0, 0, 0, 0, 0, False, False, Method.NETWORK, 0, segments, pairs, model, precision, recall, inflate))
     answer = _Answer()
-    by_a, by_b = (np.zeros((1 if poses is None else len(poses), 6), np.float32) for poses, _ in question.kept[0])
+    by_a, by_b = (np.zeros((1 if motion.poses is None else len(motion.poses), 6), np.float32) for motion in question.kept[0])
     code = _library.nsvcd_sweep_gradient(byref(question), _workspace.address, _workspace.size, byref(answer),
                                          _address(by_a), _address(by_b))
     _check_question(code, question)

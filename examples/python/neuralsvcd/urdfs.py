@@ -14,7 +14,7 @@ import numpy as np
 from .words import JointKind
 from ._arrays import FilePath, Vector
 from .bodies import Body
-from .meshes import Mesh
+from .meshes import Mesh, _warn_of_size
 
 
 class _Scene(NamedTuple):
@@ -54,10 +54,12 @@ def _encoded(reader: Any, body: Any, balls: int) -> Body:
     scale: Vector = body.scale
     data = Path(body.mesh).read_bytes()
     if scale[0] == scale[1] == scale[2] > 0:
-        return Body(Mesh.parse(data, body.mesh, scale[0]), balls=balls)
-    mesh = Mesh.parse(data, body.mesh)
-    faces = mesh.faces[:, ::-1] if np.prod(scale) < 0 else mesh.faces
-    return Body(mesh.vertices * np.array(scale), faces, balls=balls)
+        mesh = Mesh.parse(data, body.mesh, scale[0])
+    else:
+        mesh = Mesh.parse(data, body.mesh)
+        mesh = Mesh(np.asarray(mesh.vertices * np.array(scale), np.float32), mesh.faces[:, ::-1] if np.prod(scale) < 0 else mesh.faces)
+    _warn_of_size(mesh, scale[0], f"{body.name}: {body.mesh}", "the URDF's scale ")
+    return Body(mesh, balls=balls)
 
 
 def _read_urdf(path: FilePath, srdf: Optional[FilePath], obstacles: Union[FilePath, Sequence[Any]], fixed: Mapping[str, float],
@@ -67,7 +69,8 @@ def _read_urdf(path: FilePath, srdf: Optional[FilePath], obstacles: Union[FilePa
     given = reader.Given(dict(fixed), {name: os.fspath(folder) for name, folder in package.items()}, set(ignore), velocity, round)
     robot = reader.Robot(os.fspath(path), given)
     rules = reader.Semantics(None if srdf is None else os.fspath(srdf), robot, given)
-    lines = [line.split() for line in reader.robot_lines(robot, rules, output)]
+    with reader.about(os.fspath(path)):
+        lines = [line.split() for line in reader.robot_lines(robot, rules, output)]
     for name in set(given.held) - set(robot.elements) - rules.virtual:
         raise ValueError(f"fixed: there is no joint {name}")
     links = {"world": 0}
@@ -102,5 +105,9 @@ def _read_urdf(path: FilePath, srdf: Optional[FilePath], obstacles: Union[FilePa
         if not all(hasattr(part, "_asdict") for part in obstacles):
             raise TypeError("obstacles: a URDF's path, or Parts: [Part(body, 0, pose=...)]")
         rows = [part._asdict() for part in cast(Sequence[Any], obstacles)]
+        for row in rows:
+            if row["link"]:
+                raise ValueError(f"obstacles: {row['name'] or 'a Part'} is on link {row['link']}: an obstacle rests on link 0, the world; "
+                                 "what a link carries is one of the parts of Robot(joints, parts, pairs)")
     pairs += [(k, len(parts) + n) for k in moving for n in range(len(rows))]
     return _Scene(joints, parts + rows, pairs)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import enum
 from ctypes import c_size_t
-from typing import Any
+from typing import Any, Literal, Union
 
 
 class Code(enum.IntEnum):
@@ -131,13 +131,13 @@ class Method(_Word):
     NETWORK = "network"
 
 
-class PlanStatus(enum.IntEnum):
+class PlanStatus(_Word):
     """What a plan is: nsvcd_plan_status."""
-    CONVERGED = 0
-    LIMIT = 1
-    CANCELLED = 2
-    START = 3
-    GOAL = 4
+    CONVERGED = "converged"
+    LIMIT = "limit"
+    CANCELLED = "cancelled"
+    START = "start"
+    GOAL = "goal"
 
 
 class JointKind(_Word):
@@ -147,14 +147,21 @@ class JointKind(_Word):
     PRISMATIC = "prismatic"
 
 
-class RouteStatus(enum.IntEnum):
+class RouteStatus(_Word):
     """What a route is: nsvcd_route_status."""
-    FOUND = 0
-    LIMIT = 1
-    STOPPED = 2
-    START = 3
-    GOAL = 4
+    FOUND = "found"
+    LIMIT = "limit"
+    STOPPED = "stopped"
+    START = "start"
+    GOAL = "goal"
 
+
+# What may be said of these, for type checkers.
+_AskWord = Union[Ask, Literal["hit", "first", "distance"]]
+_MethodWord = Union[Method, Literal["default", "proof", "network"]]
+_ModelWord = Union[Model, Literal["default", "tiny", "small", "base"]]
+_PrecisionWord = Union[Precision, Literal["float", "int8"]]
+_KindWord = Union[JointKind, Literal["revolute", "continuous", "prismatic"]]
 
 NO_TRIANGLE = 0xffffffff  # in the arrays of sweep
 LEAVE_OUT = c_size_t(-1).value  # Stage.iterations
@@ -162,6 +169,7 @@ _PREFIXES: dict[Any, str] = {
     Code: "ERROR_", Ask: "ASK_", Verdict: "", By: "BY_", Why: "WHY_", Model: "MODEL_", Precision: "PRECISION_",
     Method: "METHOD_", PlanStatus: "PLAN_", JointKind: "JOINT_", RouteStatus: "ROUTE_"}
 _VERDICTS, _BYS, _WHYS = tuple(Verdict), tuple(By), tuple(Why)
+_ROUTES, _PLANS = tuple(RouteStatus), tuple(PlanStatus)
 
 
 def _number_of(value: enum.Enum) -> int:

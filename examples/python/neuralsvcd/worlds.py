@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import math
 import threading
 from collections.abc import Iterator, Sequence
 from ctypes import byref, c_float, c_size_t, c_void_p
@@ -11,7 +12,7 @@ from typing import Any, NamedTuple, Optional, Union
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .words import Code, Method, Verdict, _VERDICTS, Why, _WHYS
+from .words import _AskWord, Code, Method, Verdict, _VERDICTS, Why, _WHYS
 from ._structs import (
     _SlideAnswer, _SlideOptions, _StepAnswer, _StepOptions, _struct, _WorldAnswer, _WorldBody, _WorldContact,
     _WorldQuestion)
@@ -19,7 +20,7 @@ from ._library import _library
 from .errors import _check, _check_of, _fault_of, _Names, Error
 from ._arrays import _address, _filled, Floats, _floats, _IDENTITY, _memory, _number, Pose, _pose_tuple, _vector, Vector
 from .bodies import Body, _body_of, BodyLike
-from .motions import _motion, _pose_of
+from .motions import _motion, _pose_of, _warn_of_rounding
 from .answers import _packed, Range
 from .batches import _workspace
 from .sweeps import _asked
@@ -150,6 +151,7 @@ class World:
         self._memory = _memory(size)
         self._world = c_void_p()
         self._bodies: dict[int, Body] = {}
+        self._sizes: dict[int, float] = {}
         self._slid: dict[int, Any] = {}  # what the next slide of a body takes back
         self._door = _Door()
         _check(_library.nsvcd_world_begin(_address(self._memory), size, most, byref(self._world)))
@@ -183,25 +185,26 @@ class World:
         """
         body = _body_of(body, "body")
         given = _filled(_WorldBody, groups=groups, passes=passes, fixed=bool(fixed), sensor=bool(sensor))
-        given.body, given.pose, given.scale = body._address, _pose_of(pose, "pose"), _scale_of(scale)
+        given.body, given.scale = body._address, _scale_of(scale)
+        given.pose = _pose_of(pose, "pose", body._size * scale)
         given.pivot[:] = _floats(pivot, (3,), "pivot").tolist()
         id = c_size_t()
         with self._door.changes():
             _check_of(_library.nsvcd_world_add(self._world, byref(given), byref(id)), _OF_BODY)
-            self._bodies[id.value] = body
+            self._bodies[id.value], self._sizes[id.value] = body, body._size * scale
         return id.value
 
     def move(self, id: int, pose: ArrayLike) -> None:
         """Moves a body elsewhere. Nothing is asked."""
         with self._door.changes():
-            _check_of(_library.nsvcd_world_move(self._world, _id_of(id), byref(_pose_of(pose, "pose"))), _OF_ID)
+            _check_of(_library.nsvcd_world_move(self._world, _id_of(id), byref(_pose_of(pose, "pose", self._sizes.get(id, math.inf)))), _OF_ID)
 
     def remove(self, id: int) -> None:
         """Takes a body out."""
         with self._door.changes():
             _check_of(_library.nsvcd_world_remove(self._world, _id_of(id)), _OF_ID)
             self._slid.pop(id, None)
-            del self._bodies[id]
+            del self._bodies[id], self._sizes[id]
 
     def get(self, id: int) -> Resident:
         """What a body is, and where."""
@@ -226,7 +229,7 @@ class World:
         """Drives a body in this frame to a pose, by a line and a slerp about its pivot: a lift, a door, a robot's link. It
         stops for nobody: others that slide get out of its way, or are caught."""
         with self._door.changes():
-            code = _library.nsvcd_world_drive(self._world, _id_of(id), byref(_pose_of(to, "to")))
+            code = _library.nsvcd_world_drive(self._world, _id_of(id), byref(_pose_of(to, "to", self._sizes.get(id, math.inf))))
             _check_of(code, {Code.INDEX: "id", Code.POSE: "to", Code.QUATERNION: "to"})
 
     def arrive(self) -> None:
@@ -236,7 +239,7 @@ class World:
 
     def sweep(self, mover: Union[int, BodyLike], poses: Optional[ArrayLike] = None, *, times: Optional[ArrayLike] = None,
               scale: float = 1, pivot: ArrayLike = (0, 0, 0), groups: int = 0, passes: int = 0, ignore: int = 0,
-              ask: str = "hit", to: float = 0, to_time: float = 0, clearance: float = 0, slop: float = 0,
+              ask: _AskWord = "hit", to: float = 0, to_time: float = 0, clearance: float = 0, slop: float = 0,
               tolerance: float = 0, manifold: bool = False, surfaces: bool = False, work: int = 0,
               segments: int = 0) -> WorldAnswer:
         """Does a mover hit any body? And which first: ask="first". Driven bodies are asked about as they move.
@@ -246,7 +249,7 @@ class World:
         ignore  the id that a Body stands for: it does not meet that body, whose groups count
         ask, ..., segments  as of `sweep` of two bodies; ask: hit or first
         """
-        question = _world_question(mover, poses, times, scale, pivot, groups, passes, ignore, _asked(
+        question = _world_question(self._sizes, mover, poses, times, scale, pivot, groups, passes, ignore, _asked(
             ask, to, to_time, clearance, slop, tolerance, manifold, surfaces, Method.DEFAULT, work, segments))
         answer = _WorldAnswer()
         with self._door.asks():
@@ -262,7 +265,7 @@ class World:
              segments: int = 0) -> tuple[int, ...]:
         """The ids of all bodies that a mover meets on its way, sensors too; what is undecided counts. Arguments are those of
         `sweep`."""
-        question = _world_question(mover, poses, times, scale, pivot, groups, passes, ignore, _asked(
+        question = _world_question(self._sizes, mover, poses, times, scale, pivot, groups, passes, ignore, _asked(
             "hit", 0, 0, clearance, slop, tolerance, False, surfaces, Method.DEFAULT, work, segments))
         count = c_size_t()
         with self._door.asks():
@@ -367,8 +370,8 @@ def _id_of(id: Any) -> Any:
     return _number(c_size_t, id, "id")
 
 
-def _world_question(mover: Union[int, BodyLike], poses: Optional[ArrayLike], times: Optional[ArrayLike], scale: float,
-                    pivot: ArrayLike, groups: int, passes: int, ignore: int, asked_of_it: Any) -> Any:
+def _world_question(sizes: dict[int, float], mover: Union[int, BodyLike], poses: Optional[ArrayLike], times: Optional[ArrayLike],
+                    scale: float, pivot: ArrayLike, groups: int, passes: int, ignore: int, asked_of_it: Any) -> Any:
     asked = _filled(_WorldQuestion, groups=groups, passes=passes, self=ignore)
     motion = _motion(poses, times, one=True)
     asked.question = asked_of_it
@@ -384,6 +387,8 @@ def _world_question(mover: Union[int, BodyLike], poses: Optional[ArrayLike], tim
         body = _body_of(mover, "mover: an id")
         a.body, a.scale = body._address, _scale_of(scale)
         a.pivot[:] = _floats(pivot, (3,), "pivot").tolist()
+    size = sizes.get(asked.self, math.inf) if body is None else body._size * scale
+    _warn_of_rounding(motion.given, motion.poses, size, "poses")
     if motion.poses is not None:
         a.poses, a.count = _address(motion.poses), len(motion.poses)
         a.times = None if motion.times is None else _address(motion.times)

@@ -5,13 +5,14 @@
     if report.kind == "free": ...
 
 Nothing here is shared with the module neuralsvcd or with neuralsvcd.h, which make certificates. Poses, times and scales are as
-there, and copied as float32; what is proven is about these. Threads may share meshes. Wrong input is raised as
-ValueError and TypeError; a certificate may be any bytes.
+there, and copied as float32, with a warning where that moves them far; what is proven is about these. Threads may share meshes.
+Wrong input is raised as ValueError and TypeError; a certificate may be any bytes.
 """
 from __future__ import annotations
 
 import ctypes
 import enum
+import warnings
 from ctypes import c_char, c_char_p, c_double, c_float, c_size_t, c_void_p
 from pathlib import Path
 from typing import Any, NamedTuple, Optional
@@ -158,6 +159,12 @@ def _mover(given: Any, poses: Optional[ArrayLike], times: Optional[ArrayLike], s
     rows = [[0, 0, 0, 0, 0, 0, 1]] if poses is None else np.atleast_2d(np.asarray(poses))
     kept_poses = _array(rows, (7,), f"poses_{side}")
     kept_times = _array(np.empty(0) if times is None else times, (), f"times_{side}")
+    size = abs(scale) * float(np.ptp(mesh._kept[0], axis=0).max())
+    with np.errstate(invalid="ignore"):
+        off = float(np.abs(kept_poses[:, :3] - np.asarray(rows)[:, :3]).max(initial=0))
+    if off > 1e-4 * size and np.asarray(rows).dtype != np.float32:
+        warnings.warn(f"poses_{side}: what is proven is of float32, to which rounding moves them by {off:.2g} m, which is much for "
+                      f"a mesh of {size:.2g} m: subtract a common origin from all poses first, as for certify", stacklevel=3)
     if times is not None and len(kept_times) != len(kept_poses):
         raise ValueError(f"times_{side}: {len(kept_times)} of {len(kept_poses)} poses")
     out = _memory(_library.verifier_mover_size(len(mesh._kept[0])))
