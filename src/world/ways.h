@@ -51,8 +51,8 @@ typedef struct nsvcd__slide {
   size_t met;
   // a character's: of its speed, that is left for the rest of the frame
   double pace;
-  // what has stopped it in this frame: contacts that a look may leave out, where many are; and where
-  // its pivot was then
+  // what has stopped it in this frame: contacts that a look may leave out, where many are; and
+  // where its pivot was then
   size_t stop_count;
   nsvcd__d3 stopped_at[NSVCD__MOST_STOPS];
   nsvcd_world_contact stops[NSVCD__MOST_STOPS];
