@@ -1872,7 +1872,7 @@ static const char nsvcd__result_texts[] =
     "low or high is not finite, or low is not less than high on each axis\0"
     "patches is more than 65536, or patch_radius is negative or not finite\0"
     "radius, convex_radius or half is negative, wrongly zero, not finite or too large\0"
-    "this is not a body, or it is damaged, cut short or misaligned\0"
+    "this is not a body: it is damaged, cut short or misaligned\0"
     "the body is of another version, model or byte order: encode the mesh again\0"
     "a body holds no triangles, which a proof needs: encode it without no_triangles\0"
     "a body holds no latents, which the network needs: encode it with them, without "

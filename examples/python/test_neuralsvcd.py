@@ -1778,6 +1778,15 @@ class Certificates(unittest.TestCase):
     def verify(self, proof: bytes, a: str, b: str, *poses, **named) -> nsvcd_verify.Report:
         return nsvcd_verify.verify(proof, self.checked[a], self.checked[b], *poses, **named)
 
+    def test_open(self) -> None:
+        """Something is inside of what is not quite closed: nothing is free, whether certify asks or is told."""
+        inner, outer = nsvcd.Mesh(0.2 * CUBE, FACES), nsvcd.Mesh(CUBE, FACES[:-1])
+        answer = nsvcd.sweep(nsvcd.Body(inner), nsvcd.Body(outer))
+        self.assertEqual((answer.verdict, answer.why), ("undecided", "open"))
+        for told in (answer, None):
+            made = nsvcd.certify(inner, outer, answer=told)
+            self.assertEqual((made.verdict, made.why, made.bytes), ("undecided", "open", b""))
+
     def both(self, *scene, **named) -> tuple[nsvcd.Certificate, nsvcd_verify.Report]:
         """What is made is accepted."""
         made = self.certify(*scene, **named)

@@ -98,11 +98,13 @@ static double nsvcd__bit_reversed(int k) {
 // Looks for a hit at single instants, from an answer's on or anywhere.
 static int nsvcd__meet_at_instants(nsvcd__certifier *c, const nsvcd_answer *answer,
                                    size_t visits) {
-  const double from = answer ? (double)answer->time.high : 0;
-  if (answer && (answer->verdict == NSVCD_FREE || !(from >= 0 && from <= 1))) return 0;
+  if (answer && answer->verdict == NSVCD_FREE) return 0;
+  const double said = answer ? (double)answer->time.high : -1;
+  const int is_known = answer && answer->verdict == NSVCD_HIT && said >= 0 && said <= 1;
+  const double from = is_known ? said : 0;
   for (int k = NSVCD__INSTANTS; k >= 0; k--) {
     // soon after an answer's; or at the end, a half, quarters, eighths
-    const double fraction = answer ? ldexp(1, -k) : nsvcd__bit_reversed(NSVCD__INSTANTS - k);
+    const double fraction = is_known ? ldexp(1, -k) : nsvcd__bit_reversed(NSVCD__INSTANTS - k);
     const double t = nsvcd__min(from + (1 - from) * fraction, 1 - NSVCD__SHORTEST_INTERVAL);
     const size_t most = c->made->visits + NSVCD__INSTANT_VISITS;
     const size_t limit = most < visits ? most : visits;

@@ -112,8 +112,9 @@ def certify(a: TreeLike, b: TreeLike, poses_a: Optional[ArrayLike] = None, poses
 
     a, b       each a Tree, a Body that was made of a mesh, or what stands for a mesh; whoever checks needs body.mesh
     clearance  metres: to come as near as this is a hit
-    answer     of sweep, where a hit is looked for first; it is not believed. None: certify asks first, of meshes that are
-               encoded for that: to certify many motions, give Bodies or Trees
+    answer     of sweep, where a hit is looked for first; it is not believed, but if its why is open, nothing is free.
+               None: certify asks first, of meshes that are encoded for that: to certify many motions, give Bodies or
+               Trees
     visits     steps that may be taken; 1000000
     """
     bodies = [None if answer is not None else _body_to_ask(given) for given in (a, b)]
@@ -127,7 +128,8 @@ def certify(a: TreeLike, b: TreeLike, poses_a: Optional[ArrayLike] = None, poses
     if answer is not None:
         named = answer.nearest
         triangles = (NO_TRIANGLE if k is None else k for k in (named.triangle_a, named.triangle_b))
-        told = _Answer(verdict=_number_of(answer.verdict), inside=answer.inside)
+        told = _Answer(verdict=_number_of(answer.verdict), why=_number_of(answer.why), inside=answer.inside)
+        told.time.low, told.time.high = answer.time
         told.nearest.time, (told.nearest.triangle_a, told.nearest.triangle_b) = named.time, triangles
         options.answer = ctypes.addressof(told)
     size = _library.nsvcd_certify_workspace_size(byref(question), trees[0]._address, trees[1]._address)
