@@ -576,7 +576,7 @@ slide: creeps for good|nsvcd__travel_left(s) <= most \|\| (touches \&\& !memcmp(
 slide: up what is too steep|if (!s->ground \&\& into > 0) s->thing.linear = nsvcd__d3_fma(into, away, s->thing.linear);|
 slide: walls that lean are ramps|if (s->ground) h->normal = away;|
 slide: friction without an end|const double most = thing->friction * hold->pushed;|const double most = 1e9;
-slide: nothing bounces|h->least = nsvcd__max(h->least, (double)s->given->restitution * into);|(void)0;
+slide: nothing bounces|h->least = nsvcd__max(h->least, (double)s->given->restitution * h->into);|(void)0;
 slide: the rest of the frame is lost|if (!at_once) s->left *= 1 - (double)t.safe_time;|if (!at_once) s->left = 0;
 slide: stays at the clearance|left[k].least = NSVCD__LEAVES * nsvcd__max(holds[k].lacks, 0) / seconds;|left[k].least = 0;
 slide: no way down|if (stood \&\& !s.ground \&\& given->step > 0 \&\& rises <= 0) nsvcd__step_down(\&s);|
