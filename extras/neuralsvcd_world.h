@@ -350,7 +350,8 @@ typedef struct nsvcd_step_answer {
 // nothing, and keeps its velocity.
 //   What two bodies give each other keeps their momentum along the normal, and gains no energy. An
 // approach no faster than two frames of gravity, or, of a mover with a mass, than twice `quiet`,
-// gives nothing, or no pile would come to rest: such contacts only hold.
+// gives nothing, or no pile would come to rest: such contacts only hold. Where a mover with a mass
+// stopped without having moved at all, that is an approach up to twice as fast.
 //   A mover with a mass and a friction that touches something is braked: its speed falls at a rate
 // of 0.3 a second and its spin at 1.2, and both at 10 below 2.7 times `quiet`.
 //   A sleeper wakes when it is pushed, moved or given a speed, when what it touches is moved,
@@ -3046,7 +3047,8 @@ NSVCDDEF nsvcd_result nsvcd_world_slide(nsvcd_world *world, size_t id,
 //
 // Not all movers that are met take part. A body on a pile presses on it by gravity in each frame,
 // and if that were handed on, nothing would come to rest: what comes no faster than two frames of
-// gravity along the normal, or than twice `quiet`, holds. For a character only the first counts.
+// gravity along the normal, or than twice `quiet`, holds; twice that if the body could not move at
+// all, as in a pile. For a character only the gravity counts, once.
 //
 // A slide's friction, and contacts one after the other, may leave more energy in sum than before:
 // then of all changes as much is taken back, which keeps the momentum too.

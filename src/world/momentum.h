@@ -9,7 +9,8 @@
 //
 // Not all movers that are met take part. A body on a pile presses on it by gravity in each frame,
 // and if that were handed on, nothing would come to rest: what comes no faster than two frames of
-// gravity along the normal, or than twice `quiet`, holds. For a character only the first counts.
+// gravity along the normal, or than twice `quiet`, holds; twice that if the body could not move at
+// all, as in a pile. For a character only the gravity counts, once.
 //
 // A slide's friction, and contacts one after the other, may leave more energy in sum than before:
 // then of all changes as much is taken back, which keeps the momentum too.
