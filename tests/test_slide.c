@@ -636,8 +636,7 @@ static void add_stairs(stage *s, double rise, double run, int is_one) {
     const double deep = k < 4 ? run : 3;
     const double x = run * (k - 1) + 0.5 * deep;
     if (is_one) shapes_box_at(&shape, x, 0, 0.5 * rise * k, deep, 2, rise * k);
-    if (!is_one)
-      stage_add(s, thing_box(deep, 2, rise * k), pose_of(x, 0, 0.5 * rise * k), 1);
+    if (!is_one) stage_add(s, thing_box(deep, 2, rise * k), pose_of(x, 0, 0.5 * rise * k), 1);
   }
   if (is_one) stage_add(s, thing_of(&shape), pose_of(0, 0, 0), 1);
 }

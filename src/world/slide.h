@@ -123,7 +123,8 @@ static int nsvcd__rests_again(nsvcd__slide *s, float seconds, const nsvcd_veloci
 static int nsvcd__slide_round(nsvcd__slide *s, int is_first, int *rests) {
   nsvcd__thing *thing = &s->thing;
   s->is_on_edge = 0;
-  nsvcd__slide_look(s);
+  if (s->was_on_edge) nsvcd__seek_ground(s);
+  if (!s->was_on_edge) nsvcd__slide_look(s);
   nsvcd__ride(s);
   const nsvcd_world_contact *before = nsvcd__step_before(s);
   if (before) {
@@ -188,6 +189,8 @@ NSVCDDEF nsvcd_result nsvcd_world_slide(nsvcd_world *world, size_t id,
     answer->questions = answer->work = 0;
     return NSVCD_OK;
   }
+  s.was_on_edge = answer->ground && nsvcd__is_last_slide(world, id, answer) &&
+                  nsvcd__d3_dot(nsvcd__d3_load(answer->ground_normal), s.up) < s.slope;
   const size_t rounds = given->rounds ? given->rounds : NSVCD__USUAL_ROUNDS;
   int more = 1;
   int stood = 0;
