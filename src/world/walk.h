@@ -147,7 +147,9 @@ static void nsvcd__seek_ground(nsvcd__slide *s) {
   nsvcd__slide_look(s);
   const nsvcd__d3 n = s->ground ? nsvcd__d3_load(s->ground->contact.normal) : s->up;
   s->is_on_edge = nsvcd__d3_dot(n, s->up) < s->slope;
-  if (s->is_on_edge && !(nsvcd__d3_dot(walks, n) > 0)) s->is_on_edge = 0, s->ground = NULL;
+  if (!s->is_on_edge || nsvcd__d3_dot(walks, n) > 0) return;
+  s->is_on_edge = 0;
+  s->ground = NULL;
 }
 
 // Beyond the edge that feet have come over, is there a ground no lower than a step?
@@ -172,13 +174,18 @@ static int nsvcd__leads_down(nsvcd__slide *s) {
 }
 
 // Whoever stood on a ground and walked off it steps down, if there is a ground to step down on, or
-// the edge of a step that leads down to one.
+// the edge of a step that leads down to one; a margin farther on, if a riser it leaves is too near.
 static void nsvcd__step_down(nsvcd__slide *s) {
   const nsvcd_pose above = s->pose;
   const double step = (double)s->given->step;
-  if (nsvcd__go_by(s, nsvcd__d3_scale(s->up, -step)) < 1) {
+  const nsvcd__d3 walks = nsvcd__flat_part(s, nsvcd__d3_sub(s->thing.linear, s->ridden));
+  const double pace = nsvcd__max(nsvcd__d3_norm(walks), 1e-9);
+  for (int k = 0; k < 2; k++) {
+    (void)nsvcd__go_by(s, nsvcd__d3_scale(walks, k * s->margin / pace));
+    if (nsvcd__go_by(s, nsvcd__d3_scale(s->up, -step)) >= 1) break;
     nsvcd__seek_ground(s);
     if (s->ground && (!s->is_on_edge || nsvcd__leads_down(s))) return;
+    s->pose = above;
   }
   s->pose = above;
   s->is_on_edge = 0;
