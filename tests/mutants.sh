@@ -584,14 +584,22 @@ slide: stays at the clearance|left[k].least = NSVCD__LEAVES * nsvcd__max(holds[k
 slide: no way down|if (stood \&\& !s.ground \&\& given->step > 0 \&\& rises <= 0) nsvcd__step_down(\&s);|
 slide: a climb is no way|s->pace *= 1 - gone;|
 slide: nobody rides|s->ridden = nsvcd__driven_speed(s, s->ground->body, nsvcd__pivot_at(s));|
-slide: no edge is one of a step|return gone >= 1 \&\& s->ground;|return 0;
-slide: edges of what is too high|return gone >= 1 \&\& s->ground;|return s->ground != NULL;
-slide: edges of what is too steep|return gone >= 1 \&\& s->ground;|return gone >= 1;
+slide: no edge is one of a step|if (nsvcd__is_on_step(s)) return 1;|
+slide: edges of what is too high|return s->ground \&\& nsvcd__height_of(s, s->ground) <= s->floor + (double)s->given->step;|return s->ground != NULL;
+slide: edges of what is too steep|if (nsvcd__is_on_step(s)) return 1;|return 1;
+slide: a step farther on than edges|gap + radius * (lies - sqrt(1 - bears * bears));|step;
+slide: feet as thin as lines|radius * (lies - sqrt(1 - bears * bears));|0 * bears;
+slide: steps above the sole|s->floor = s->ground ? nsvcd__height_of(s, s->ground) : sole;|s->floor = sole;
+slide: no edge leads down|(!s->is_on_edge \|\| nsvcd__leads_down(s))|!s->is_on_edge
+slide: all edges lead down|const int leads = s->ground \&\& nsvcd__height_of(s, s->ground) >= edge - step;|const int leads = s->ground != NULL \|\| edge > -1e9;
+slide: edges bear for a frame|if (s->was_on_edge) nsvcd__seek_ground(s);|if (s->was_on_edge) nsvcd__slide_look(s);
+slide: who stops hangs on edges|if (!s->is_on_edge \|\| nsvcd__d3_dot(walks, n) > 0) return;|return;
+slide: risers that are left hold|for (int k = 0; k < 2; k++) {\n    (void)nsvcd__go_by(s, nsvcd__d3_scale(walks|for (int k = 0; k < 1; k++) {\n    (void)nsvcd__go_by(s, nsvcd__d3_scale(walks
 slide: edges stop|h->normal = s->up;|(void)0;
 slide: flies off kerbs|if (stood) nsvcd__stop_climbing(\&s);|
 slide: jumps are eaten|if (s->jumps) return;|
-slide: kerbs eat jumps|if (!(s->given->step > 0) \|\| s->jumps) return 0;|if (!(s->given->step > 0)) return 0;
-slide: edges at rest on trains|nsvcd__climb(s);\n    nsvcd__ride(s);|nsvcd__climb(s);
+slide: kerbs eat jumps|if (!(s->given->step > 0) \|\| s->jumps) return NULL;|if (!(s->given->step > 0)) return NULL;
+slide: edges at rest on trains|nsvcd__climb(s, before);\n    nsvcd__ride(s);|nsvcd__climb(s, before);
 step: going along is no way|is_free = nsvcd__ask_about(\&q, id, \&answer) \&\& answer.verdict == NSVCD_FREE;|is_free = 1;
 step: known whatever moved|if (r->proven >= moved \|\| o->proven >= moved) continue;|if (r->proven \|\| o->proven) continue;
 step: a lift passes through|if (nsvcd__ask_about(\&q, id, \&answer) \&\& answer.verdict != NSVCD_FREE) found = id;|(void)0;
