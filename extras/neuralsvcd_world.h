@@ -215,8 +215,9 @@ typedef struct nsvcd_slide_options {
   // unit, of a character; (0, 0, 0): none. With it, it rides on what it stands on, and keeps no
   // speed upwards from walking up something: one that it is given is a jump
   float up[3];
-  // metres: the highest step that it climbs; and the least cosine between up and the normal of a
-  // ground that it stands on, default 0.7
+  // metres: the highest step that it climbs, from what it stands on or else from its lowest point,
+  // and walks down without a fall; and the least cosine between up and the normal of a ground that
+  // it stands on, default 0.7. An edge that bears round feet at such a normal is no step
   float step, slope;
   // ways that it goes in a frame, from contact to contact, at most; default 4. Where it meets a
   // driven body, four times as many
@@ -240,7 +241,7 @@ typedef struct nsvcd_slide_answer {
   float spent;
   // 1: it rests: it did not move at all, and its speed is 0
   int rests;
-  // the body that it stands on, and the ground's normal; or nobody
+  // the body that it stands on, and the ground's normal, steep on the edge of a step; or nobody
   size_t ground;
   float ground_normal[3];
   // the driven body that it could not get out of the way of; or nobody
@@ -2347,6 +2348,8 @@ typedef struct nsvcd__slide {
   nsvcd__d3 up;
   double slope;
   int is_on_edge;
+  // in the frame before it was on such an edge
+  int was_on_edge;
   // it was given a speed upwards
   int jumps;
   // the speed of what it rides on; and the speed besides its own with which it leaves what is near
@@ -2682,19 +2685,24 @@ static int nsvcd__is_on_step(const nsvcd__slide *s) {
   return s->ground && nsvcd__height_of(s, s->ground) <= s->floor + (double)s->given->step;
 }
 
-// Round feet meet the edge of a step long before they are above it. It is one if there is ground, no
-// higher than a step, as soon as it is so far below them that it bears them: they come no farther
-// where the next edge is before them. A ball's contact tells how far that is, of which the feet are
-// taken for a part: at cosines between that of a ground and 1. Moves the body there, or wherever it
-// gets to.
+// The radius of feet, by a contact so high above their sole: as if they were a ball.
+static double nsvcd__ball_of(const nsvcd__slide *s, nsvcd__d3 normal, double high) {
+  const double radius = high / (1 - nsvcd__d3_dot(normal, s->up));
+  return nsvcd__min(nsvcd__max(radius, 0), s->ask.shape.reach);
+}
+
+// Round feet meet the edge of a step long before they are above it. It is one if there is ground,
+// no higher than a step, as soon as it is so far below them that it bears them: they come no
+// farther where the next edge is before them. A ball's contact tells how far that is, of which the
+// feet are taken for a part: at cosines between that of a ground and 1. Moves the body there, or
+// wherever it gets to.
 static int nsvcd__is_edge_of_step(nsvcd__slide *s, nsvcd__d3 normal, double high) {
   static const double parts[2] = {0.1, 0.5};
   const double step = (double)s->given->step;
   const double gap = 2 * (s->clearance + 2 * s->margin);
   const nsvcd__d3 flat = nsvcd__flat_part(s, normal);
   const double lies = nsvcd__d3_norm(flat);
-  const double ball = high / (1 - nsvcd__d3_dot(normal, s->up));
-  const double radius = nsvcd__min(ball, s->ask.shape.reach);
+  const double radius = nsvcd__ball_of(s, normal, high);
   const double risen = step * nsvcd__go_by(s, nsvcd__d3_scale(s->up, step));
   double along = 0;
   for (int k = 0; k < 2; k++) {
@@ -2746,14 +2754,56 @@ static void nsvcd__climb(nsvcd__slide *s, const nsvcd_world_contact *before) {
   nsvcd__slide_look(s);
 }
 
-// Whoever stood on a ground and walked off it steps down, if there is a ground to step down on.
+// Looks for a ground; or else for the edge of a step that feet have come over, and walk away from.
+static void nsvcd__seek_ground(nsvcd__slide *s) {
+  const nsvcd__d3 walks = nsvcd__flat_part(s, nsvcd__d3_sub(s->thing.linear, s->ridden));
+  s->is_on_edge = 1;
+  nsvcd__slide_look(s);
+  const nsvcd__d3 n = s->ground ? nsvcd__d3_load(s->ground->contact.normal) : s->up;
+  s->is_on_edge = nsvcd__d3_dot(n, s->up) < s->slope;
+  if (!s->is_on_edge || nsvcd__d3_dot(walks, n) > 0) return;
+  s->is_on_edge = 0;
+  s->ground = NULL;
+}
+
+// Beyond the edge that feet have come over, is there a ground no lower than a step?
+static int nsvcd__leads_down(nsvcd__slide *s) {
+  const double step = (double)s->given->step;
+  const nsvcd__d3 normal = nsvcd__d3_load(s->ground->contact.normal);
+  const double edge = nsvcd__height_of(s, s->ground);
+  const nsvcd__d3 flat = nsvcd__flat_part(s, normal);
+  const double lies = nsvcd__d3_norm(flat);
+  const double radius = nsvcd__ball_of(s, normal, edge - nsvcd__sole(s));
+  const double by = 2 * (s->clearance + 2 * s->margin) + radius * (1 - lies);
+  const nsvcd_pose here = s->pose;
+  (void)nsvcd__go_by(s, nsvcd__d3_scale(flat, by / lies));
+  (void)nsvcd__go_by(s, nsvcd__d3_scale(s->up, -step));
+  s->is_on_edge = 0;
+  nsvcd__slide_look(s);
+  const int leads = s->ground && nsvcd__height_of(s, s->ground) >= edge - step;
+  s->pose = here;
+  s->is_on_edge = leads;
+  nsvcd__slide_look(s);
+  return leads;
+}
+
+// Whoever stood on a ground and walked off it steps down, if there is a ground to step down on, or
+// the edge of a step that leads down to one; a margin farther on, if a riser it leaves is too near.
 static void nsvcd__step_down(nsvcd__slide *s) {
   const nsvcd_pose above = s->pose;
-  if (nsvcd__go_by(s, nsvcd__d3_scale(s->up, -(double)s->given->step)) < 1) {
-    nsvcd__slide_look(s);
-    if (s->ground) return;
+  const double step = (double)s->given->step;
+  const nsvcd__d3 walks = nsvcd__flat_part(s, nsvcd__d3_sub(s->thing.linear, s->ridden));
+  const double pace = nsvcd__max(nsvcd__d3_norm(walks), 1e-9);
+  for (int k = 0; k < 2; k++) {
+    (void)nsvcd__go_by(s, nsvcd__d3_scale(walks, k * s->margin / pace));
+    if (nsvcd__go_by(s, nsvcd__d3_scale(s->up, -step)) >= 1) break;
+    nsvcd__seek_ground(s);
+    if (s->ground && (!s->is_on_edge || nsvcd__leads_down(s))) return;
+    s->pose = above;
   }
   s->pose = above;
+  s->is_on_edge = 0;
+  nsvcd__slide_look(s);
 }
 
 // Whoever stood, and did not jump, does not fly off what it walked up: it keeps no speed upwards.
@@ -2764,7 +2814,8 @@ static void nsvcd__stop_climbing(nsvcd__slide *s) {
   s->thing.linear = nsvcd__d3_fma(-up, s->up, s->thing.linear);
 }
 
-// The lowest of what is too steep to stand on in the way of whoever stands, or is on an edge; or none.
+// The lowest of what is too steep to stand on in the way of whoever stands or is on an edge, or
+// none.
 static const nsvcd_world_contact *nsvcd__step_before(const nsvcd__slide *s) {
   const nsvcd__d3 walks = nsvcd__flat_part(s, nsvcd__d3_sub(s->thing.linear, s->ridden));
   const nsvcd_world_contact *out = NULL;
@@ -2918,7 +2969,8 @@ static void nsvcd__hold_again(const nsvcd__slide *s, const nsvcd_slide_answer *b
 static int nsvcd__slide_round(nsvcd__slide *s, int is_first, int *rests) {
   nsvcd__thing *thing = &s->thing;
   s->is_on_edge = 0;
-  nsvcd__slide_look(s);
+  if (s->was_on_edge) nsvcd__seek_ground(s);
+  if (!s->was_on_edge) nsvcd__slide_look(s);
   nsvcd__ride(s);
   const nsvcd_world_contact *before = nsvcd__step_before(s);
   if (before) {
@@ -2961,6 +3013,19 @@ static void nsvcd__tell_slide(nsvcd__slide *s, nsvcd_velocity *velocity,
   out->work = s->ask.work;
 }
 
+// The rest of the frame goes by without the body. Which driven body comes to it then, or nobody?
+static size_t nsvcd__caught_by(nsvcd__slide *s) {
+  const double left = s->left;
+  const nsvcd_pose stays = s->pose;
+  if (!(left > 0) || s->ask.result || !nsvcd__is_driven_near(s)) return NSVCD_NOBODY;
+  s->ask.of_driven = 1;
+  const double free_until = nsvcd__go(s, &stays, 0);
+  s->ask.of_driven = 0;
+  s->pose = stays;
+  s->left = left;
+  return free_until < 1 ? s->met : NSVCD_NOBODY;
+}
+
 // Slides, and tells what became of each contact of the answer when the body met it.
 static nsvcd_result nsvcd__slide_and_tell(nsvcd_world *world, size_t id,
                                           const nsvcd_slide_options *options, float seconds,
@@ -2986,6 +3051,8 @@ static nsvcd_result nsvcd__slide_and_tell(nsvcd_world *world, size_t id,
     answer->questions = answer->work = 0;
     return NSVCD_OK;
   }
+  s.was_on_edge = answer->ground && nsvcd__is_last_slide(world, id, answer) &&
+                  nsvcd__d3_dot(nsvcd__d3_load(answer->ground_normal), s.up) < s.slope;
   const size_t rounds = given->rounds ? given->rounds : NSVCD__USUAL_ROUNDS;
   int more = 1;
   int stood = 0;
@@ -2995,17 +3062,7 @@ static nsvcd_result nsvcd__slide_and_tell(nsvcd_world *world, size_t id,
     more = nsvcd__slide_round(&s, round == 0, &out.rests);
     if (round == 0) stood = s.ground != NULL;
   }
-  if (s.left > 0 && !s.ask.result && nsvcd__is_driven_near(&s)) {
-    // the rest of the frame goes by without it
-    const double left = s.left;
-    const nsvcd_pose stays = s.pose;
-    s.ask.of_driven = 1;
-    const double free_until = nsvcd__go(&s, &stays, 0);
-    s.ask.of_driven = 0;
-    s.pose = stays;
-    s.left = left;
-    if (free_until < 1) out.caught = s.met;
-  }
+  out.caught = nsvcd__caught_by(&s);
   if (stood) nsvcd__stop_climbing(&s);
   const double rises = nsvcd__d3_dot(nsvcd__d3_sub(s.thing.linear, s.ridden), s.up);
   s.lost = s.left;

@@ -566,7 +566,7 @@ world: a list as it comes|for (; at > 0 \&\& ids[at - 1] > id; at--)|for (; at >
 slide: driven bodies from their start|s->ask.since = 1 - s->left;\n  s->ask.at_once = at_once;|s->ask.since = 0;\n  s->ask.at_once = at_once;
 slide: half the clearance|s->ask.question.clearance = (float)s->clearance;|s->ask.question.clearance = 0.5f * (float)s->clearance;
 slide: driven bodies without a speed|const nsvcd__d3 driven = nsvcd__driven_speed(s, s->contacts[k].body, on_other);|const nsvcd__d3 driven = {0 * on_other.x, 0, 0};
-slide: nobody is caught|if (free_until < 1) out.caught = s.met;|
+slide: nobody is caught|out.caught = nsvcd__caught_by(\&s);|(void)nsvcd__caught_by(\&s);
 slide: no way out|return nsvcd__push_off(s) \|\| gone > 0;|return gone > 0;
 slide: what touches at first is stuck|if (answer.verdict == NSVCD_FREE) continue;\n    q.question.a.count = 1;|if (answer.verdict != NSVCD_FREE) return 0;\n    q.question.a.count = 1;
 slide: caught by what is not driven|if (q->of_driven \&\& !r->is_driven) continue;|
@@ -586,6 +586,15 @@ slide: a climb is no way|s->pace *= 1 - gone;|
 slide: nobody rides|s->ridden = nsvcd__driven_speed(s, s->ground->body, nsvcd__pivot_at(s));|
 slide: no edge is one of a step|if (nsvcd__is_on_step(s)) return 1;|
 slide: edges of what is too high|return s->ground \&\& nsvcd__height_of(s, s->ground) <= s->floor + (double)s->given->step;|return s->ground != NULL;
+slide: edges of what is too steep|if (nsvcd__is_on_step(s)) return 1;|return 1;
+slide: a step farther on than edges|gap + radius * (lies - sqrt(1 - bears * bears));|step;
+slide: feet as thin as lines|radius * (lies - sqrt(1 - bears * bears));|0 * bears;
+slide: steps above the sole|s->floor = s->ground ? nsvcd__height_of(s, s->ground) : sole;|s->floor = sole;
+slide: no edge leads down|(!s->is_on_edge \|\| nsvcd__leads_down(s))|!s->is_on_edge
+slide: all edges lead down|const int leads = s->ground \&\& nsvcd__height_of(s, s->ground) >= edge - step;|const int leads = s->ground != NULL \|\| edge > -1e9;
+slide: edges bear for a frame|if (s->was_on_edge) nsvcd__seek_ground(s);|if (s->was_on_edge) nsvcd__slide_look(s);
+slide: who stops hangs on edges|if (!s->is_on_edge \|\| nsvcd__d3_dot(walks, n) > 0) return;|return;
+slide: risers that are left hold|for (int k = 0; k < 2; k++) {\n    (void)nsvcd__go_by(s, nsvcd__d3_scale(walks|for (int k = 0; k < 1; k++) {\n    (void)nsvcd__go_by(s, nsvcd__d3_scale(walks
 slide: edges stop|h->normal = s->up;|(void)0;
 slide: flies off kerbs|if (stood) nsvcd__stop_climbing(\&s);|
 slide: jumps are eaten|if (s->jumps) return;|

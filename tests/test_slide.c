@@ -636,8 +636,7 @@ static void add_stairs(stage *s, double rise, double run, int is_one) {
     const double deep = k < 4 ? run : 3;
     const double x = run * (k - 1) + 0.5 * deep;
     if (is_one) shapes_box_at(&shape, x, 0, 0.5 * rise * k, deep, 2, rise * k);
-    if (!is_one)
-      stage_add(s, thing_box(deep, 2, rise * k), pose_of(x, 0, 0.5 * rise * k), 1);
+    if (!is_one) stage_add(s, thing_box(deep, 2, rise * k), pose_of(x, 0, 0.5 * rise * k), 1);
   }
   if (is_one) stage_add(s, thing_of(&shape), pose_of(0, 0, 0), 1);
 }
@@ -685,6 +684,64 @@ static void stops_at_what_is_higher_than_its_step(void) {
     CHECK_LE(place(&a, 2), 0.95);
     stage_end(&s);
   }
+}
+
+// Walks down them on ground in every frame; down what is higher than a step, by 2 cm, it falls.
+static void goes_down_stairs_on_ground(void) {
+  static const double runs[5] = {0.2, 0.25, 0.3, 0.4, 0.6};
+  for (int n = 0; n < 90; n++) {
+    const int falls = n >= 45;
+    const double rise = 0.1 * (1 + n % 3);
+    const double run = runs[n / 3 % 5];
+    const float speed = (float)(1 << n / 15 % 3);
+    if (falls && rise < 0.15) continue;  // its feet roll over edges of up to 9 cm
+    stage s = stage_begin();
+    add_floor(&s);
+    add_stairs(&s, rise, run, n % 2);
+    const size_t id =
+        stage_add(&s, thing_capsule(), pose_of(3 * run + 0.6, 0, 4 * rise + 0.906), 0);
+    actor a = character_of(&s, id, (float)(rise + (falls ? -0.02 : 0.02)));
+    a.options.clearance = a.options.margin = 0;
+    int in_air = 0;
+    double falling = 0;
+    for (int f = 0; f < (int)((3 * run + 1.2) * 60 / (double)speed); f++) {
+      a.velocity.linear[0] = -speed;
+      a.velocity.linear[2] -= gravity;
+      slide(&a);
+      in_air += a.answer.ground == NSVCD_NOBODY;
+      falling = fmin(falling, (double)a.velocity.linear[2]);
+      if (f % 8 == 7) CHECK_GE(stage_apart(&s, id), AROUND + 0.0045 - 1e-4);
+    }
+    if (falls) CHECK_GE(in_air, 10);
+    if (falls) CHECK_LE(falling, -1.4);
+    if (!falls) CHECK_EQ(in_air, 0);
+    if (!falls) CHECK_NEAR(place(&a, 2), 0.9 + 0.008, 0.004);
+    CHECK_LE(place(&a, 0), -0.5);
+    stage_end(&s);
+  }
+}
+
+// Whoever stops on an edge on the way down does not hang there; and who jumps from there jumps.
+static void edges_hold_nobody(void) {
+  int were_on_edge = 0;
+  for (int n = 0; n < 24; n++) {
+    const int jumps = n % 2;
+    stage s = stage_begin();
+    add_floor(&s);
+    add_stairs(&s, 0.2, 0.3, 0);
+    const size_t id = stage_add(&s, thing_capsule(), pose_of(1.1, 0, 0.8 + 0.901), 0);
+    actor a = character_of(&s, id, 0.25f);
+    for (int f = 0; f < 12 + n / 2; f++) frame(&a, -2, 0);
+    const double high = place(&a, 2);
+    were_on_edge += a.answer.ground_normal[2] < 0.7f;
+    CHECK(a.answer.ground != NSVCD_NOBODY);
+    a.velocity.linear[2] = jumps ? 3 : 0;
+    for (int f = 0; f < (jumps ? 18 : 60); f++) frame(&a, jumps ? -2 : 0, 0);
+    if (jumps) CHECK_NEAR(place(&a, 2) - high, 0.45, 0.03);
+    if (!jumps) CHECK_GE(a.answer.ground_normal[2], 0.7f);
+    stage_end(&s);
+  }
+  CHECK_GE(were_on_edge, 3);
 }
 
 static void walks_on_an_elevator(void) {
@@ -982,6 +1039,8 @@ void test_slide(void) {
   RUN(round_feet_climb_kerbs);
   RUN(climbs_stairs_by_any_step);
   RUN(stops_at_what_is_higher_than_its_step);
+  RUN(goes_down_stairs_on_ground);
+  RUN(edges_hold_nobody);
   RUN(walks_on_an_elevator);
   RUN(climbs_on_a_train);
   RUN(between_two_movers);

@@ -165,8 +165,9 @@ typedef struct nsvcd_slide_options {
   // unit, of a character; (0, 0, 0): none. With it, it rides on what it stands on, and keeps no
   // speed upwards from walking up something: one that it is given is a jump
   float up[3];
-  // metres: the highest step that it climbs; and the least cosine between up and the normal of a
-  // ground that it stands on, default 0.7
+  // metres: the highest step that it climbs, from what it stands on or else from its lowest point,
+  // and walks down without a fall; and the least cosine between up and the normal of a ground that
+  // it stands on, default 0.7. An edge that bears round feet at such a normal is no step
   float step, slope;
   // ways that it goes in a frame, from contact to contact, at most; default 4. Where it meets a
   // driven body, four times as many
@@ -190,7 +191,7 @@ typedef struct nsvcd_slide_answer {
   float spent;
   // 1: it rests: it did not move at all, and its speed is 0
   int rests;
-  // the body that it stands on, and the ground's normal; or nobody
+  // the body that it stands on, and the ground's normal, steep on the edge of a step; or nobody
   size_t ground;
   float ground_normal[3];
   // the driven body that it could not get out of the way of; or nobody

@@ -136,7 +136,8 @@ static void nsvcd__hold_again(const nsvcd__slide *s, const nsvcd_slide_answer *b
 static int nsvcd__slide_round(nsvcd__slide *s, int is_first, int *rests) {
   nsvcd__thing *thing = &s->thing;
   s->is_on_edge = 0;
-  nsvcd__slide_look(s);
+  if (s->was_on_edge) nsvcd__seek_ground(s);
+  if (!s->was_on_edge) nsvcd__slide_look(s);
   nsvcd__ride(s);
   const nsvcd_world_contact *before = nsvcd__step_before(s);
   if (before) {
@@ -179,6 +180,19 @@ static void nsvcd__tell_slide(nsvcd__slide *s, nsvcd_velocity *velocity,
   out->work = s->ask.work;
 }
 
+// The rest of the frame goes by without the body. Which driven body comes to it then, or nobody?
+static size_t nsvcd__caught_by(nsvcd__slide *s) {
+  const double left = s->left;
+  const nsvcd_pose stays = s->pose;
+  if (!(left > 0) || s->ask.result || !nsvcd__is_driven_near(s)) return NSVCD_NOBODY;
+  s->ask.of_driven = 1;
+  const double free_until = nsvcd__go(s, &stays, 0);
+  s->ask.of_driven = 0;
+  s->pose = stays;
+  s->left = left;
+  return free_until < 1 ? s->met : NSVCD_NOBODY;
+}
+
 // Slides, and tells what became of each contact of the answer when the body met it.
 static nsvcd_result nsvcd__slide_and_tell(nsvcd_world *world, size_t id,
                                           const nsvcd_slide_options *options, float seconds,
@@ -204,6 +218,8 @@ static nsvcd_result nsvcd__slide_and_tell(nsvcd_world *world, size_t id,
     answer->questions = answer->work = 0;
     return NSVCD_OK;
   }
+  s.was_on_edge = answer->ground && nsvcd__is_last_slide(world, id, answer) &&
+                  nsvcd__d3_dot(nsvcd__d3_load(answer->ground_normal), s.up) < s.slope;
   const size_t rounds = given->rounds ? given->rounds : NSVCD__USUAL_ROUNDS;
   int more = 1;
   int stood = 0;
@@ -213,17 +229,7 @@ static nsvcd_result nsvcd__slide_and_tell(nsvcd_world *world, size_t id,
     more = nsvcd__slide_round(&s, round == 0, &out.rests);
     if (round == 0) stood = s.ground != NULL;
   }
-  if (s.left > 0 && !s.ask.result && nsvcd__is_driven_near(&s)) {
-    // the rest of the frame goes by without it
-    const double left = s.left;
-    const nsvcd_pose stays = s.pose;
-    s.ask.of_driven = 1;
-    const double free_until = nsvcd__go(&s, &stays, 0);
-    s.ask.of_driven = 0;
-    s.pose = stays;
-    s.left = left;
-    if (free_until < 1) out.caught = s.met;
-  }
+  out.caught = nsvcd__caught_by(&s);
   if (stood) nsvcd__stop_climbing(&s);
   const double rises = nsvcd__d3_dot(nsvcd__d3_sub(s.thing.linear, s.ridden), s.up);
   s.lost = s.left;

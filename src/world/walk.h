@@ -71,19 +71,24 @@ static int nsvcd__is_on_step(const nsvcd__slide *s) {
   return s->ground && nsvcd__height_of(s, s->ground) <= s->floor + (double)s->given->step;
 }
 
-// Round feet meet the edge of a step long before they are above it. It is one if there is ground, no
-// higher than a step, as soon as it is so far below them that it bears them: they come no farther
-// where the next edge is before them. A ball's contact tells how far that is, of which the feet are
-// taken for a part: at cosines between that of a ground and 1. Moves the body there, or wherever it
-// gets to.
+// The radius of feet, by a contact so high above their sole: as if they were a ball.
+static double nsvcd__ball_of(const nsvcd__slide *s, nsvcd__d3 normal, double high) {
+  const double radius = high / (1 - nsvcd__d3_dot(normal, s->up));
+  return nsvcd__min(nsvcd__max(radius, 0), s->ask.shape.reach);
+}
+
+// Round feet meet the edge of a step long before they are above it. It is one if there is ground,
+// no higher than a step, as soon as it is so far below them that it bears them: they come no
+// farther where the next edge is before them. A ball's contact tells how far that is, of which the
+// feet are taken for a part: at cosines between that of a ground and 1. Moves the body there, or
+// wherever it gets to.
 static int nsvcd__is_edge_of_step(nsvcd__slide *s, nsvcd__d3 normal, double high) {
   static const double parts[2] = {0.1, 0.5};
   const double step = (double)s->given->step;
   const double gap = 2 * (s->clearance + 2 * s->margin);
   const nsvcd__d3 flat = nsvcd__flat_part(s, normal);
   const double lies = nsvcd__d3_norm(flat);
-  const double ball = high / (1 - nsvcd__d3_dot(normal, s->up));
-  const double radius = nsvcd__min(ball, s->ask.shape.reach);
+  const double radius = nsvcd__ball_of(s, normal, high);
   const double risen = step * nsvcd__go_by(s, nsvcd__d3_scale(s->up, step));
   double along = 0;
   for (int k = 0; k < 2; k++) {
@@ -135,14 +140,56 @@ static void nsvcd__climb(nsvcd__slide *s, const nsvcd_world_contact *before) {
   nsvcd__slide_look(s);
 }
 
-// Whoever stood on a ground and walked off it steps down, if there is a ground to step down on.
+// Looks for a ground; or else for the edge of a step that feet have come over, and walk away from.
+static void nsvcd__seek_ground(nsvcd__slide *s) {
+  const nsvcd__d3 walks = nsvcd__flat_part(s, nsvcd__d3_sub(s->thing.linear, s->ridden));
+  s->is_on_edge = 1;
+  nsvcd__slide_look(s);
+  const nsvcd__d3 n = s->ground ? nsvcd__d3_load(s->ground->contact.normal) : s->up;
+  s->is_on_edge = nsvcd__d3_dot(n, s->up) < s->slope;
+  if (!s->is_on_edge || nsvcd__d3_dot(walks, n) > 0) return;
+  s->is_on_edge = 0;
+  s->ground = NULL;
+}
+
+// Beyond the edge that feet have come over, is there a ground no lower than a step?
+static int nsvcd__leads_down(nsvcd__slide *s) {
+  const double step = (double)s->given->step;
+  const nsvcd__d3 normal = nsvcd__d3_load(s->ground->contact.normal);
+  const double edge = nsvcd__height_of(s, s->ground);
+  const nsvcd__d3 flat = nsvcd__flat_part(s, normal);
+  const double lies = nsvcd__d3_norm(flat);
+  const double radius = nsvcd__ball_of(s, normal, edge - nsvcd__sole(s));
+  const double by = 2 * (s->clearance + 2 * s->margin) + radius * (1 - lies);
+  const nsvcd_pose here = s->pose;
+  (void)nsvcd__go_by(s, nsvcd__d3_scale(flat, by / lies));
+  (void)nsvcd__go_by(s, nsvcd__d3_scale(s->up, -step));
+  s->is_on_edge = 0;
+  nsvcd__slide_look(s);
+  const int leads = s->ground && nsvcd__height_of(s, s->ground) >= edge - step;
+  s->pose = here;
+  s->is_on_edge = leads;
+  nsvcd__slide_look(s);
+  return leads;
+}
+
+// Whoever stood on a ground and walked off it steps down, if there is a ground to step down on, or
+// the edge of a step that leads down to one; a margin farther on, if a riser it leaves is too near.
 static void nsvcd__step_down(nsvcd__slide *s) {
   const nsvcd_pose above = s->pose;
-  if (nsvcd__go_by(s, nsvcd__d3_scale(s->up, -(double)s->given->step)) < 1) {
-    nsvcd__slide_look(s);
-    if (s->ground) return;
+  const double step = (double)s->given->step;
+  const nsvcd__d3 walks = nsvcd__flat_part(s, nsvcd__d3_sub(s->thing.linear, s->ridden));
+  const double pace = nsvcd__max(nsvcd__d3_norm(walks), 1e-9);
+  for (int k = 0; k < 2; k++) {
+    (void)nsvcd__go_by(s, nsvcd__d3_scale(walks, k * s->margin / pace));
+    if (nsvcd__go_by(s, nsvcd__d3_scale(s->up, -step)) >= 1) break;
+    nsvcd__seek_ground(s);
+    if (s->ground && (!s->is_on_edge || nsvcd__leads_down(s))) return;
+    s->pose = above;
   }
   s->pose = above;
+  s->is_on_edge = 0;
+  nsvcd__slide_look(s);
 }
 
 // Whoever stood, and did not jump, does not fly off what it walked up: it keeps no speed upwards.
@@ -153,7 +200,8 @@ static void nsvcd__stop_climbing(nsvcd__slide *s) {
   s->thing.linear = nsvcd__d3_fma(-up, s->up, s->thing.linear);
 }
 
-// The lowest of what is too steep to stand on in the way of whoever stands, or is on an edge; or none.
+// The lowest of what is too steep to stand on in the way of whoever stands or is on an edge, or
+// none.
 static const nsvcd_world_contact *nsvcd__step_before(const nsvcd__slide *s) {
   const nsvcd__d3 walks = nsvcd__flat_part(s, nsvcd__d3_sub(s->thing.linear, s->ridden));
   const nsvcd_world_contact *out = NULL;

@@ -41,6 +41,8 @@ typedef struct nsvcd__slide {
   nsvcd__d3 up;
   double slope;
   int is_on_edge;
+  // in the frame before it was on such an edge
+  int was_on_edge;
   // it was given a speed upwards
   int jumps;
   // the speed of what it rides on; and the speed besides its own with which it leaves what is near
