@@ -515,6 +515,27 @@ static void a_character_pushes_from_anywhere(void) {
   }
 }
 
+// With a crate on its head that fell there from some height, and sleeps nearer than its clearance.
+static void a_character_jumps_beneath_a_crate(void) {
+  for (int n = 0; n < 40; n++) {
+    stage s = stage_begin();
+    add_floor(&s);
+    nsvcd_world_mover m[2] = {add_cube(&s, 0, 0, 0.26, 0, 0),
+                              add_cube(&s, 0, 0, 0.78 + 0.0037 * n, 20, 1)};
+    m[0].how.up[2] = 1;
+    m[0].push_mass = 70;
+    m[0].how.clearance = m[0].how.margin = 0.0045f;
+    m[1].how.clearance = m[1].how.margin = 0.0026f;
+    for (int f = 0; f < 120; f++) step(&s, m, 2, &earth);
+    CHECK_EQ(m[1].asleep, 1);
+    m[0].velocity.linear[2] = 5;
+    for (int f = 0; f < 12; f++) step(&s, m, 2, &earth);
+    CHECK_GE(stage_pose(&s, m[0].id).position[2], 0.6);
+    CHECK_GE(stage_pose(&s, m[1].id).position[2], 1.1);
+    stage_end(&s);
+  }
+}
+
 static void who_is_driven_goes_there(void) {
   stage s = stage_begin();
   add_floor(&s);
@@ -702,6 +723,7 @@ void test_step(void) {
   RUN(who_never_sleeps);
   RUN(a_character_pushes);
   RUN(a_character_pushes_from_anywhere);
+  RUN(a_character_jumps_beneath_a_crate);
   RUN(who_is_driven_goes_there);
   RUN(any_order_is_safe);
   RUN(bad_steps_are_refused);
