@@ -416,6 +416,26 @@ static void two_movers_bounce(void) {
   }
 }
 
+// To and fro between two walls, several times in a frame: each bounce takes what it is due.
+static void bounces_between_walls(void) {
+  stage s = stage_begin();
+  for (int side = -1; side <= 1; side += 2)
+    stage_add(&s, thing_box(1, 5, 5), pose_of(0.8 * side, 0, 0), 1);
+  nsvcd_world_mover m = add_cube(&s, 0, 0, 0, 1, 0);
+  m.how.restitution = 1;
+  m.velocity.linear[0] = 11;
+  for (int f = 0; f < 60; f++) {
+    m.velocity.linear[1] = m.velocity.linear[2] = 0;
+    m.velocity.linear[0] = m.velocity.linear[0] < 0 ? -11 : 11;
+    step(&s, &m, 1, &space);
+    double taken = 0;
+    for (size_t k = 0; k < m.answer.contact_count; k++)
+      taken += (double)m.answer.contacts[k].impulse;
+    CHECK_LE(taken, 4 * 22.1);
+  }
+  stage_end(&s);
+}
+
 // ---- sleep
 
 static void what_sleeps_wakes(void) {
@@ -718,6 +738,7 @@ void test_step(void) {
   RUN(a_crowd_is_carried_about);
   RUN(two_share_their_momentum);
   RUN(two_movers_bounce);
+  RUN(bounces_between_walls);
   RUN(a_crowd_gains_no_energy);
   RUN(what_sleeps_wakes);
   RUN(who_never_sleeps);
