@@ -3319,7 +3319,10 @@ static void nsvcd__share_momentum(const nsvcd__crowd *crowd, nsvcd_world_mover *
   const nsvcd__thing slid = p.thing;
   nsvcd__set_velocity(&p.thing, came);
   const double energy = (1 + NSVCD__ENERGY_SAME) * nsvcd__energy_of_all(&p);
-  p.thing = slid;
+  // what it lost with the rest of the frame it still has to give
+  const double lost = 1 - (double)m->answer.spent;
+  p.thing.linear = nsvcd__d3_fma(lost, p.thing.linear, slid.linear);
+  p.thing.angular = nsvcd__d3_fma(lost, p.thing.angular, slid.angular);
   // what the slide gave is taken back, and found again
   for (size_t k = 0; k < p.count; k++) {
     nsvcd__hold *own = &p.encounters[k].own;

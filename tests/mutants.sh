@@ -626,6 +626,9 @@ step: what a slide gave is given twice|nsvcd__push(\&p.thing, own, own->pushed);
 step: energy from nowhere|if (!(after > before)) return 1;|return 1;
 step: a half for too much energy|nsvcd__share_all(p, came, 2 * share);|(void)0;
 step: who rests pushes nothing|if (!(mass > 0)) return;|if (!(mass > 0) \|\| m->answer.rests) return;
+step: what could not move gives nothing|const double lost = 1 - (double)m->answer.spent;|const double lost = 0;
+slide: stops are for good|> s->margin) continue;|> 1e9) continue;
+slide: bounces gain energy|if (s->given->restitution > 0 \&\& !is_driven \&\&|if (0 \&\&
 step: piles hand all on|const int is_slow_rest = m->answer.rests|const int is_slow_rest = 0 \&\& m->answer.rests
 step: bounces by where it has gone|at->own = holds[k];|at->own = nsvcd__hold_of_other(crowd, m->id, \&p->thing, \&c->contact);
 step: characters push nothing|came.inverse_mass = p->thing.inverse_mass /= mass;|came.inverse_mass = p->thing.inverse_mass;

@@ -484,6 +484,26 @@ static void two_movers_bounce(void) {
   }
 }
 
+// To and fro between two walls, several times in a frame: each bounce takes what it is due.
+static void bounces_between_walls(void) {
+  stage s = stage_begin();
+  for (int side = -1; side <= 1; side += 2)
+    stage_add(&s, thing_box(1, 5, 5), pose_of(0.8 * side, 0, 0), 1);
+  nsvcd_world_mover m = add_cube(&s, 0, 0, 0, 1, 0);
+  m.how.restitution = 1;
+  m.velocity.linear[0] = 11;
+  for (int f = 0; f < 60; f++) {
+    m.velocity.linear[1] = m.velocity.linear[2] = 0;
+    m.velocity.linear[0] = m.velocity.linear[0] < 0 ? -11 : 11;
+    step(&s, &m, 1, &space);
+    double taken = 0;
+    for (size_t k = 0; k < m.answer.contact_count; k++)
+      taken += (double)m.answer.contacts[k].impulse;
+    CHECK_LE(taken, 4 * 22.1);
+  }
+  stage_end(&s);
+}
+
 // ---- sleep
 
 static void what_sleeps_wakes(void) {
@@ -579,6 +599,27 @@ static void a_character_pushes_from_anywhere(void) {
       step(&s, m, 2, n % 3 ? &earth : &space);
     }
     CHECK_GE(stage_pose(&s, m[1].id).position[0], 0.3);
+    stage_end(&s);
+  }
+}
+
+// With a crate on its head that fell there from some height, and sleeps nearer than its clearance.
+static void a_character_jumps_beneath_a_crate(void) {
+  for (int n = 0; n < 40; n++) {
+    stage s = stage_begin();
+    add_floor(&s);
+    nsvcd_world_mover m[2] = {add_cube(&s, 0, 0, 0.26, 0, 0),
+                              add_cube(&s, 0, 0, 0.78 + 0.0037 * n, 20, 1)};
+    m[0].how.up[2] = 1;
+    m[0].push_mass = 70;
+    m[0].how.clearance = m[0].how.margin = 0.0045f;
+    m[1].how.clearance = m[1].how.margin = 0.0026f;
+    for (int f = 0; f < 120; f++) step(&s, m, 2, &earth);
+    CHECK_EQ(m[1].asleep, 1);
+    m[0].velocity.linear[2] = 5;
+    for (int f = 0; f < 12; f++) step(&s, m, 2, &earth);
+    CHECK_GE(stage_pose(&s, m[0].id).position[2], 0.6);
+    CHECK_GE(stage_pose(&s, m[1].id).position[2], 1.1);
     stage_end(&s);
   }
 }
@@ -768,11 +809,13 @@ void test_step(void) {
   RUN(a_crowd_is_carried_about);
   RUN(two_share_their_momentum);
   RUN(two_movers_bounce);
+  RUN(bounces_between_walls);
   RUN(a_crowd_gains_no_energy);
   RUN(what_sleeps_wakes);
   RUN(who_never_sleeps);
   RUN(a_character_pushes);
   RUN(a_character_pushes_from_anywhere);
+  RUN(a_character_jumps_beneath_a_crate);
   RUN(who_is_driven_goes_there);
   RUN(any_order_is_safe);
   RUN(bad_steps_are_refused);
