@@ -351,8 +351,8 @@ typedef struct nsvcd_step_answer {
 // nothing, and keeps its velocity.
 //   What two bodies give each other keeps their momentum along the normal, and gains no energy. An
 // approach no faster than two frames of gravity, or, of a mover with a mass, than twice `quiet`,
-// gives nothing, or no pile would come to rest: such contacts only hold. Where a mover with a mass
-// stopped without having moved at all, that is an approach up to twice as fast.
+// gives nothing, or no pile would come to rest: such contacts only hold. A mover with a mass that
+// could hardly move, in this frame and the one before, gives to its sides only.
 //   A mover with a mass and a friction that touches something is braked: its speed falls at a rate
 // of 0.3 a second and its spin at 1.2, and both at 10 below 2.7 times `quiet`.
 //   A sleeper wakes when it is pushed, moved or given a speed, when what it touches is moved,
@@ -1476,6 +1476,8 @@ typedef struct nsvcd__resident {
   // it; and its speed besides
   uint64_t proven;
   nsvcd__d3 goes, turns, slips;
+  // of the last slides of steps: in how many it stood where it was, up to 2
+  int stood;
 } nsvcd__resident;
 
 // One of a step's movers, and how high it is.
@@ -3104,14 +3106,17 @@ NSVCDDEF nsvcd_result nsvcd_world_slide(nsvcd_world *world, size_t id,
 //
 // Not all movers that are met take part. A body on a pile presses on it by gravity in each frame,
 // and if that were handed on, nothing would come to rest: what comes no faster than two frames of
-// gravity along the normal, or than twice `quiet`, holds; twice that if the body could not move at
-// all, as in a pile. For a character only the gravity counts, once.
+// gravity along the normal, or than twice `quiet`, holds, and so does what has stood for two
+// frames, unless the normal is level. Else the crates of a stack, each of which keeps half of what
+// it hands down, would do so for ever. For a character only the gravity counts, once.
 //
 // A slide's friction, and contacts one after the other, may leave more energy in sum than before:
 // then of all changes as much is taken back, which keeps the momentum too.
 
 // of a change that would gain energy: less is none
 #define NSVCD__LEAST_SHARE 0.05
+// the sine of the steepest angle at which a normal is level
+#define NSVCD__LEVEL_NORMAL 0.1
 // relative: rounding
 #define NSVCD__ENERGY_SAME 1e-6
 
@@ -3178,18 +3183,26 @@ static double nsvcd__speed_along(const nsvcd__thing *thing, const nsvcd__hold *h
 
 // Does a mover take part in a contact? came: the body before its slide.
 static int nsvcd__takes_part(const nsvcd__crowd *crowd, const nsvcd_world_mover *m,
-                             const nsvcd__thing *came, const nsvcd__encounter *at,
-                             const nsvcd__thing *thing) {
-  const double falls = 2 * fabs(nsvcd__d3_dot(crowd->falls, at->own.normal));
+                             const nsvcd__thing *came, const nsvcd__encounter *at) {
+  const double falls = fabs(nsvcd__d3_dot(crowd->falls, at->own.normal));
   const double least = m->how.mass > 0 ? 2 * crowd->quiet : 0;
   const double goes = -nsvcd__speed_along(came, &at->own);
-  const double nears = goes + nsvcd__speed_along(thing, &at->other);
-  // what stopped where it was is part of a pile, unless it came fast
-  const int is_slow_rest = m->answer.rests && m->how.mass > 0;
-  return nsvcd__max(goes, nears) > (is_slow_rest ? 2 : 1) * nsvcd__max(falls, least);
+  const int is_piled = m->how.mass > 0 && crowd->world->residents[m->id].stood > 1;
+  if (is_piled && falls > NSVCD__LEVEL_NORMAL * nsvcd__d3_norm(crowd->falls)) return 0;
+  return goes > nsvcd__max(2 * falls, least);
 }
 
-// Finds the contacts that pushed in a slide, and who takes part in them.
+// Has any contact with a body pushed?
+static int nsvcd__has_pushed(const nsvcd_slide_answer *answer, size_t body) {
+  size_t k = 0;
+  while (k < answer->contact_count &&
+         (answer->contacts[k].body != body || !(answer->contacts[k].impulse > 0)))
+    k++;
+  return k < answer->contact_count;
+}
+
+// Finds the contacts with bodies that pushed in a slide, and who takes part in them. Where one
+// corner of a face took all, the others are to have their part; those farther may come nearer.
 static void nsvcd__momentum_begin(const nsvcd__crowd *crowd, nsvcd_world_mover *m,
                                   const nsvcd_velocity *velocity, const nsvcd__hold *holds,
                                   nsvcd__momentum *p) {
@@ -3204,16 +3217,16 @@ static void nsvcd__momentum_begin(const nsvcd__crowd *crowd, nsvcd_world_mover *
     nsvcd_world_contact *c = &m->answer.contacts[k];
     nsvcd_world_mover *met = nsvcd__mover_with(crowd, c->body);
     nsvcd__encounter *at = &p->encounters[p->count];
-    if (!(c->impulse > 0)) continue;
+    if (!nsvcd__has_pushed(&m->answer, c->body)) continue;
     at->contact = c;
     at->own = holds[k];
-    at->own.give /= mass;
-    at->own.turn = nsvcd__d3_over(at->own.turn, mass);
+    at->own.give = nsvcd__give_of(&p->thing, at->own.arm, at->own.normal, &at->own.turn);
     at->own.pushed = 0;
     at->own.least = nsvcd__min(nsvcd__speed_along(&p->thing, &at->own), 0);
     at->with = NSVCD_WORLD_CONTACTS;
     p->count++;
     if (!met || !(met->how.mass > 0) || crowd->world->residents[met->id].is_driven) continue;
+    if (!nsvcd__takes_part(crowd, m, &came, at)) continue;
     size_t j = 0;
     while (j < p->met_count && p->met[j] != met) j++;
     const nsvcd_pose *there = &crowd->world->residents[met->id].given.pose;
@@ -3222,10 +3235,10 @@ static void nsvcd__momentum_begin(const nsvcd__crowd *crowd, nsvcd_world_mover *
       p->things[j].linear = nsvcd__d3_sub(p->things[j].linear, p->frame);
     }
     at->other = nsvcd__hold_of_other(crowd, met->id, &p->things[j], &c->contact);
-    if (!nsvcd__takes_part(crowd, m, &came, at, &p->things[j])) continue;
     const double nears = at->own.into + nsvcd__speed_along(&p->things[j], &at->other);
     const int bounces = nears > NSVCD__BOUNCES;
-    at->own.least = bounces ? (double)m->how.restitution * nears : 0;
+    const double gap = nsvcd__max(-holds[k].lacks, 0) / (double)crowd->seconds;
+    at->own.least = bounces ? (double)m->how.restitution * nears : -gap;
     at->own.pushed = -mass * holds[k].pushed * (double)m->answer.spent;
     at->with = j;
     p->met[j] = met;
@@ -3576,6 +3589,8 @@ static void nsvcd__add_carried(const nsvcd__d3 linear, const nsvcd__d3 angular, 
 #define NSVCD__BRAKES_SPEED 0.3
 #define NSVCD__BRAKES_SPIN 1.2
 #define NSVCD__BRAKES_QUIET 10.0
+// who has come by less than this part of the way that it asked for has stood
+#define NSVCD__STANDS 0.1
 
 // ---- what is asked for
 
@@ -3757,6 +3772,7 @@ static nsvcd_result nsvcd__step_mover(const nsvcd__crowd *crowd, nsvcd_world_mov
   nsvcd__resident *r = &crowd->world->residents[m->id];
   if (m->asleep || r->is_driven) return NSVCD_OK;
   const nsvcd_velocity was = m->velocity;
+  const nsvcd__d3 from = nsvcd__pivot_of(&r->given.pose, r->shape.pivot);
   const int is_carried = r->carrier != NSVCD_NOBODY;
   const nsvcd__d3 none = {0, 0, 0};
   // a character's speed is its own already
@@ -3776,6 +3792,10 @@ static nsvcd_result nsvcd__step_mover(const nsvcd__crowd *crowd, nsvcd_world_mov
   }
   if (is_thing) nsvcd__add_carried(none, turns, 1, &came);
   if (is_thing) nsvcd__add_carried(none, turns, 1, &m->velocity);
+  const nsvcd__d3 to = nsvcd__pivot_of(&r->given.pose, r->shape.pivot);
+  const double asked = nsvcd__d3_norm(nsvcd__d3_load(came.linear)) * (double)crowd->seconds;
+  const int stands = nsvcd__d3_norm(nsvcd__d3_sub(to, from)) < NSVCD__STANDS * asked;
+  r->stood = stands ? (r->stood > 0 ? 2 : 1) : 0;
   nsvcd__share_momentum(crowd, m, &came, goes, holds);
   r->slips = is_thing ? nsvcd__d3_load(m->velocity.linear) : none;
   if (is_thing) nsvcd__add_carried(goes, none, 1, &m->velocity);

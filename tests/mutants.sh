@@ -629,7 +629,11 @@ step: who rests pushes nothing|if (!(mass > 0)) return;|if (!(mass > 0) \|\| m->
 step: what could not move gives nothing|const double lost = 1 - (double)m->answer.spent;|const double lost = 0;
 slide: stops are for good|> s->margin) continue;|> 1e9) continue;
 slide: bounces gain energy|if (s->given->restitution > 0 \&\& !is_driven \&\&|if (0 \&\&
-step: piles hand all on|const int is_slow_rest = m->answer.rests|const int is_slow_rest = 0 \&\& m->answer.rests
+step: piles hand all on|if (is_piled \&\& falls|if (0 \&\& falls
+step: who creeps does not stand|const int stands = nsvcd__d3_norm(nsvcd__d3_sub(to, from)) < NSVCD__STANDS * asked;|const int stands = !(nsvcd__d3_norm(nsvcd__d3_sub(to, from)) > 0);
+step: who stops once is a pile|r->stood = stands ? (r->stood > 0 ? 2 : 1) : 0;|r->stood = stands ? 2 : 0;
+step: rows are piles|if (is_piled \&\& falls > NSVCD__LEVEL_NORMAL * nsvcd__d3_norm(crowd->falls)) return 0;|if (is_piled) return 0;
+step: pushed at one corner|if (!nsvcd__has_pushed(\&m->answer, c->body)) continue;|if (!(c->impulse > 0)) continue;
 step: bounces by where it has gone|at->own = holds[k];|at->own = nsvcd__hold_of_other(crowd, m->id, \&p->thing, \&c->contact);
 step: characters push nothing|came.inverse_mass = p->thing.inverse_mass /= mass;|came.inverse_mass = p->thing.inverse_mass;
 step: masses about the box|s.y + s.z, s.z + s.x, s.x + s.y|s.x + s.y, s.z + s.x, s.y + s.z

@@ -32,6 +32,12 @@ static nsvcd_world_mover add_cube(stage *s, double x, double y, double z, float 
   for (int k = 0; k < 3 && turns; k++) out.how.inertia[k] = mass / 24;
   return out;
 }
+static thing thing_ball(float radius) {
+  thing out;
+  memset(&out, 0, sizeof out);
+  CHECK_EQ(nsvcd_encode_sphere(radius, NULL, &out.body), NSVCD_OK);
+  return out;
+}
 static nsvcd_step_answer step(stage *s, nsvcd_world_mover *movers, size_t count,
                               const nsvcd_step_options *options) {
   size_t size;
@@ -75,6 +81,56 @@ static void seven_stacks_of_five_stand(void) {
     CHECK_EQ(movers[k].asleep, 1);
   }
   stage_end(&s);
+}
+
+// Crates that fell upon each other, in stacks that stand askew, with the clearance of the defaults.
+static void stacks_fall_asleep(void) {
+  enum { TALL = 5 };
+  for (int n = 0; n < 80; n++) {
+    stage s = stage_begin();
+    nsvcd_world_mover m[TALL];
+    add_floor(&s);
+    for (int k = 0; k < TALL; k++) {
+      m[k] = add_cube(&s, (0.025 + 0.0017 * (n % 40)) * k, 0, 0.75 + (0.62 + 0.0075 * (n % 40)) * k,
+                      n < 40 ? 2 : 2 + k, 1);
+      m[k].how.clearance = m[k].how.margin = 0;
+    }
+    size_t asleep = 0;
+    for (int f = 0; f < 180 && asleep < TALL; f++) asleep = step(&s, m, TALL, &earth).asleep;
+    CHECK_EQ(asleep, TALL);
+    stage_end(&s);
+  }
+}
+
+// Boxes and balls, turned in any way, that fall into a shaft.
+static void heaps_fall_asleep(void) {
+  enum { TALL = 10 };
+  for (int n = 0; n < 12; n++) {
+    stage s = stage_begin();
+    nsvcd_world_mover m[TALL];
+    add_floor(&s);
+    for (int k = 0; k < 4; k++)
+      stage_add(&s, thing_box(10, 10, 20),
+                pose_of(k / 2   ? 0
+                        : k % 2 ? 5.8
+                                : -5.8,
+                        k / 2 ? (k % 2 ? 5.8 : -5.8) : 0, 9),
+                1);
+    for (int k = 0; k < TALL; k++) {
+      memset(&m[k], 0, sizeof m[k]);
+      nsvcd_pose pose = pose_of(0, 0, 0.5 + k);
+      for (int j = 0; j < 2; j++) pose.position[j] = (float)uniform(-0.25, 0.25);
+      random_quat(pose.rotation);
+      m[k].id = stage_add(&s, k % 3 ? thing_box(0.5, 0.4, 0.3) : thing_ball(0.25f), pose, 0);
+      m[k].how.mass = (float)(1 + k % 3);
+      m[k].how.friction = 0.5f;
+      for (int j = 0; j < 3; j++) m[k].how.inertia[j] = 0.03f * m[k].how.mass;
+    }
+    size_t asleep = 0;
+    for (int f = 0; f < 900 && asleep < TALL; f++) asleep = step(&s, m, TALL, &earth).asleep;
+    CHECK_EQ(asleep, TALL);
+    stage_end(&s);
+  }
 }
 
 // Movers of a level that was left, in the next one: its floor is lower.
@@ -443,13 +499,6 @@ static void a_crowd_gains_no_energy(void) {
   }
 }
 
-static thing thing_ball(float radius) {
-  thing out;
-  memset(&out, 0, sizeof out);
-  CHECK_EQ(nsvcd_encode_sphere(radius, NULL, &out.body), NSVCD_OK);
-  return out;
-}
-
 // Two balls, or boxes face on, from distances and with clearances, one of them first: as on paper.
 static void two_movers_bounce(void) {
   static const float masses[3][2] = {{1, 1}, {1, 10}, {10, 1}}, clearances[3] = {0, 0.002f, 0.006f};
@@ -599,6 +648,28 @@ static void a_character_pushes_from_anywhere(void) {
       step(&s, m, 2, n % 3 ? &earth : &space);
     }
     CHECK_GE(stage_pose(&s, m[1].id).position[0], 0.3);
+    stage_end(&s);
+  }
+}
+
+// Crates that touch, and rub on the floor.
+static void a_character_pushes_a_row(void) {
+  enum { ALL = 4 };
+  for (int n = 0; n < 24; n++) {
+    stage s = stage_begin();
+    nsvcd_world_mover m[ALL];
+    add_floor(&s);
+    for (int k = 0; k < ALL; k++) {
+      m[k] = add_cube(&s, k ? (0.501 + 0.0008 * n) * k : -0.05 - 0.006 * n, 0, 0.26, k ? 5 : 0, k);
+      m[k].how.clearance = m[k].how.margin = 0;
+    }
+    m[0].how.up[2] = 1;
+    m[0].push_mass = 70;
+    for (int f = 0; f < 120; f++) {
+      m[0].velocity.linear[0] = 1.5f;
+      step(&s, m, ALL, &earth);
+    }
+    CHECK_GE((double)stage_pose(&s, m[ALL - 1].id).position[0] - 3 * (0.501 + 0.0008 * n), 1);
     stage_end(&s);
   }
 }
@@ -798,6 +869,8 @@ static void masses_are_those_on_paper(void) {
 
 void test_step(void) {
   RUN(seven_stacks_of_five_stand);
+  RUN(stacks_fall_asleep);
+  RUN(heaps_fall_asleep);
   RUN(a_new_world_begins_afresh);
   RUN(what_is_saved_goes_on_as_it_did);
   RUN(an_answer_tells_where_it_is);
@@ -815,6 +888,7 @@ void test_step(void) {
   RUN(who_never_sleeps);
   RUN(a_character_pushes);
   RUN(a_character_pushes_from_anywhere);
+  RUN(a_character_pushes_a_row);
   RUN(a_character_jumps_beneath_a_crate);
   RUN(who_is_driven_goes_there);
   RUN(any_order_is_safe);

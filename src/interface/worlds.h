@@ -301,8 +301,8 @@ typedef struct nsvcd_step_answer {
 // nothing, and keeps its velocity.
 //   What two bodies give each other keeps their momentum along the normal, and gains no energy. An
 // approach no faster than two frames of gravity, or, of a mover with a mass, than twice `quiet`,
-// gives nothing, or no pile would come to rest: such contacts only hold. Where a mover with a mass
-// stopped without having moved at all, that is an approach up to twice as fast.
+// gives nothing, or no pile would come to rest: such contacts only hold. A mover with a mass that
+// could hardly move, in this frame and the one before, gives to its sides only.
 //   A mover with a mass and a friction that touches something is braked: its speed falls at a rate
 // of 0.3 a second and its spin at 1.2, and both at 10 below 2.7 times `quiet`.
 //   A sleeper wakes when it is pushed, moved or given a speed, when what it touches is moved,

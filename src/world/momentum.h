@@ -9,8 +9,9 @@
 //
 // Not all movers that are met take part. A body on a pile presses on it by gravity in each frame,
 // and if that were handed on, nothing would come to rest: what comes no faster than two frames of
-// gravity along the normal, or than twice `quiet`, holds; twice that if the body could not move at
-// all, as in a pile. For a character only the gravity counts, once.
+// gravity along the normal, or than twice `quiet`, holds, and so does what has stood for two
+// frames, unless the normal is level. Else the crates of a stack, each of which keeps half of what
+// it hands down, would do so for ever. For a character only the gravity counts, once.
 //
 // A slide's friction, and contacts one after the other, may leave more energy in sum than before:
 // then of all changes as much is taken back, which keeps the momentum too.
@@ -19,6 +20,8 @@
 
 // of a change that would gain energy: less is none
 #define NSVCD__LEAST_SHARE 0.05
+// the sine of the steepest angle at which a normal is level
+#define NSVCD__LEVEL_NORMAL 0.1
 // relative: rounding
 #define NSVCD__ENERGY_SAME 1e-6
 
@@ -85,18 +88,26 @@ static double nsvcd__speed_along(const nsvcd__thing *thing, const nsvcd__hold *h
 
 // Does a mover take part in a contact? came: the body before its slide.
 static int nsvcd__takes_part(const nsvcd__crowd *crowd, const nsvcd_world_mover *m,
-                             const nsvcd__thing *came, const nsvcd__encounter *at,
-                             const nsvcd__thing *thing) {
-  const double falls = 2 * fabs(nsvcd__d3_dot(crowd->falls, at->own.normal));
+                             const nsvcd__thing *came, const nsvcd__encounter *at) {
+  const double falls = fabs(nsvcd__d3_dot(crowd->falls, at->own.normal));
   const double least = m->how.mass > 0 ? 2 * crowd->quiet : 0;
   const double goes = -nsvcd__speed_along(came, &at->own);
-  const double nears = goes + nsvcd__speed_along(thing, &at->other);
-  // what stopped where it was is part of a pile, unless it came fast
-  const int is_slow_rest = m->answer.rests && m->how.mass > 0;
-  return nsvcd__max(goes, nears) > (is_slow_rest ? 2 : 1) * nsvcd__max(falls, least);
+  const int is_piled = m->how.mass > 0 && crowd->world->residents[m->id].stood > 1;
+  if (is_piled && falls > NSVCD__LEVEL_NORMAL * nsvcd__d3_norm(crowd->falls)) return 0;
+  return goes > nsvcd__max(2 * falls, least);
 }
 
-// Finds the contacts that pushed in a slide, and who takes part in them.
+// Has any contact with a body pushed?
+static int nsvcd__has_pushed(const nsvcd_slide_answer *answer, size_t body) {
+  size_t k = 0;
+  while (k < answer->contact_count &&
+         (answer->contacts[k].body != body || !(answer->contacts[k].impulse > 0)))
+    k++;
+  return k < answer->contact_count;
+}
+
+// Finds the contacts with bodies that pushed in a slide, and who takes part in them. Where one
+// corner of a face took all, the others are to have their part; those farther may come nearer.
 static void nsvcd__momentum_begin(const nsvcd__crowd *crowd, nsvcd_world_mover *m,
                                   const nsvcd_velocity *velocity, const nsvcd__hold *holds,
                                   nsvcd__momentum *p) {
@@ -111,16 +122,16 @@ static void nsvcd__momentum_begin(const nsvcd__crowd *crowd, nsvcd_world_mover *
     nsvcd_world_contact *c = &m->answer.contacts[k];
     nsvcd_world_mover *met = nsvcd__mover_with(crowd, c->body);
     nsvcd__encounter *at = &p->encounters[p->count];
-    if (!(c->impulse > 0)) continue;
+    if (!nsvcd__has_pushed(&m->answer, c->body)) continue;
     at->contact = c;
     at->own = holds[k];
-    at->own.give /= mass;
-    at->own.turn = nsvcd__d3_over(at->own.turn, mass);
+    at->own.give = nsvcd__give_of(&p->thing, at->own.arm, at->own.normal, &at->own.turn);
     at->own.pushed = 0;
     at->own.least = nsvcd__min(nsvcd__speed_along(&p->thing, &at->own), 0);
     at->with = NSVCD_WORLD_CONTACTS;
     p->count++;
     if (!met || !(met->how.mass > 0) || crowd->world->residents[met->id].is_driven) continue;
+    if (!nsvcd__takes_part(crowd, m, &came, at)) continue;
     size_t j = 0;
     while (j < p->met_count && p->met[j] != met) j++;
     const nsvcd_pose *there = &crowd->world->residents[met->id].given.pose;
@@ -129,10 +140,10 @@ static void nsvcd__momentum_begin(const nsvcd__crowd *crowd, nsvcd_world_mover *
       p->things[j].linear = nsvcd__d3_sub(p->things[j].linear, p->frame);
     }
     at->other = nsvcd__hold_of_other(crowd, met->id, &p->things[j], &c->contact);
-    if (!nsvcd__takes_part(crowd, m, &came, at, &p->things[j])) continue;
     const double nears = at->own.into + nsvcd__speed_along(&p->things[j], &at->other);
     const int bounces = nears > NSVCD__BOUNCES;
-    at->own.least = bounces ? (double)m->how.restitution * nears : 0;
+    const double gap = nsvcd__max(-holds[k].lacks, 0) / (double)crowd->seconds;
+    at->own.least = bounces ? (double)m->how.restitution * nears : -gap;
     at->own.pushed = -mass * holds[k].pushed * (double)m->answer.spent;
     at->with = j;
     p->met[j] = met;

@@ -15,6 +15,8 @@
 #define NSVCD__BRAKES_SPEED 0.3
 #define NSVCD__BRAKES_SPIN 1.2
 #define NSVCD__BRAKES_QUIET 10.0
+// who has come by less than this part of the way that it asked for has stood
+#define NSVCD__STANDS 0.1
 
 // ---- what is asked for
 
@@ -196,6 +198,7 @@ static nsvcd_result nsvcd__step_mover(const nsvcd__crowd *crowd, nsvcd_world_mov
   nsvcd__resident *r = &crowd->world->residents[m->id];
   if (m->asleep || r->is_driven) return NSVCD_OK;
   const nsvcd_velocity was = m->velocity;
+  const nsvcd__d3 from = nsvcd__pivot_of(&r->given.pose, r->shape.pivot);
   const int is_carried = r->carrier != NSVCD_NOBODY;
   const nsvcd__d3 none = {0, 0, 0};
   // a character's speed is its own already
@@ -215,6 +218,10 @@ static nsvcd_result nsvcd__step_mover(const nsvcd__crowd *crowd, nsvcd_world_mov
   }
   if (is_thing) nsvcd__add_carried(none, turns, 1, &came);
   if (is_thing) nsvcd__add_carried(none, turns, 1, &m->velocity);
+  const nsvcd__d3 to = nsvcd__pivot_of(&r->given.pose, r->shape.pivot);
+  const double asked = nsvcd__d3_norm(nsvcd__d3_load(came.linear)) * (double)crowd->seconds;
+  const int stands = nsvcd__d3_norm(nsvcd__d3_sub(to, from)) < NSVCD__STANDS * asked;
+  r->stood = stands ? (r->stood > 0 ? 2 : 1) : 0;
   nsvcd__share_momentum(crowd, m, &came, goes, holds);
   r->slips = is_thing ? nsvcd__d3_load(m->velocity.linear) : none;
   if (is_thing) nsvcd__add_carried(goes, none, 1, &m->velocity);

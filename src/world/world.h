@@ -31,6 +31,8 @@ typedef struct nsvcd__resident {
   // it; and its speed besides
   uint64_t proven;
   nsvcd__d3 goes, turns, slips;
+  // of the last slides of steps: in how many it stood where it was, up to 2
+  int stood;
 } nsvcd__resident;
 
 // One of a step's movers, and how high it is.
