@@ -585,7 +585,7 @@ class Page(Hands):
         before = self.poses()
         wrong = {
             "v 0 0 0\nv 1 0 0\nf 1 2\n": "wrong.obj, line 3: a line cannot be understood",
-            "v 0 0 0\nv 1 0 0\nv 0 1 0\n\nf 1 2 9\n": "wrong.obj, line 5: an index is zero, or of no vertex",
+            "v 0 0 0\nv 1 0 0\nv 0 1 0\n\nf 1 2 9\n": "wrong.obj, line 5: an index is zero or refers to no vertex",
             "v 0 0 zero\n" + CUBE_FACES: "wrong.obj, line 1: a line cannot be understood",
             "": "wrong.obj: the file is empty",
             "\u0000\u0001PNG": "wrong.obj",

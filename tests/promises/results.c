@@ -17,7 +17,7 @@ static void every_code_has_a_text_of_its_own(void) {
 static void a_text_names_the_field_at_fault(void) {
   static const struct {
     nsvcd_result result;
-    const char *words[3];
+    const char *words[6];
   } names[] = {
       {NSVCD_OK, {"ok"}},
       {NSVCD_ERROR_ARGUMENT, {"NULL", "body"}},
@@ -30,7 +30,7 @@ static void a_text_names_the_field_at_fault(void) {
       {NSVCD_ERROR_BOX, {"low", "high"}},
       {NSVCD_ERROR_PATCHES, {"patches", "patch_radius"}},
       {NSVCD_ERROR_RADIUS, {"radius", "convex_radius", "half"}},
-      {NSVCD_ERROR_BODY, {"not a body", "damaged", "cut short"}},
+      {NSVCD_ERROR_BODY, {"not a body", "first bytes", "damaged"}},
       {NSVCD_ERROR_VERSION, {"version", "model", "byte order"}},
       {NSVCD_ERROR_TRIANGLES, {"triangles", "proof"}},
       {NSVCD_ERROR_LATENTS, {"latents", "network"}},
@@ -61,11 +61,11 @@ static void a_text_names_the_field_at_fault(void) {
       {NSVCD_ERROR_LINK, {"link"}},
       {NSVCD_ERROR_PAIR, {"pair"}},
       {NSVCD_ERROR_CONE, {"cone", "angle"}},
-      {NSVCD_ERROR_VALUE, {"goal", "mass", "friction"}},
+      {NSVCD_ERROR_VALUE, {"start", "goal", "points", "mass", "friction"}},
       {NSVCD_ERROR_DEGREE, {"degree", "pieces"}},
       {NSVCD_ERROR_TURN, {"turn"}},
       {NSVCD_ERROR_FINEST, {"finest"}},
-      {NSVCD_ERROR_DISTANCE, {"max_distance", "step"}},
+      {NSVCD_ERROR_DISTANCE, {"max_distance", "max_depth", "step"}},
       {NSVCD_ERROR_FARTHEST, {"farthest"}},
       {NSVCD_ERROR_ROUTE, {"nodes", "shortcuts", "edge"}},
       {NSVCD_ERROR_HELD, {"held", "goal", "start"}},
@@ -76,7 +76,7 @@ static void a_text_names_the_field_at_fault(void) {
   };
   for (size_t n = 0; n < sizeof names / sizeof names[0]; n++) {
     const char *text = nsvcd_result_string(names[n].result);
-    for (size_t k = 0; k < 3 && names[n].words[k]; k++) {
+    for (size_t k = 0; k < 6 && names[n].words[k]; k++) {
       if (!strstr(text, names[n].words[k])) printf("  '%s' in '%s'\n", names[n].words[k], text);
       CHECK(strstr(text, names[n].words[k]) != NULL);
     }
