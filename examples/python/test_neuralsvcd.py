@@ -556,7 +556,7 @@ class Arrays(unittest.TestCase):
         for words, arguments, named in (
                 ("^times_a: times ", (three,), {"times_a": [0, 0.7, 0.3]}),
                 ("^times_b: times ", (None, path), {"times_b": [0, 2]}),
-                ("^poses_a: count is .* 65536", (np.repeat(path[:1], 65537, 0),), {}),
+                ("^poses_a: poses and count .* 65536", (np.repeat(path[:1], 65537, 0),), {}),
                 ("^scale_b: a scale ", (path,), {"scale_b": 1e9}),
                 ("^to is .* HIT", (path,), {"to": 0.01}),
                 ("^segments ", (path,), {"segments": 17}),
