@@ -110,13 +110,10 @@ static void heaps_fall_asleep(void) {
     stage s = stage_begin();
     nsvcd_world_mover m[TALL];
     add_floor(&s);
-    for (int k = 0; k < 4; k++)
-      stage_add(&s, thing_box(10, 10, 20),
-                pose_of(k / 2   ? 0
-                        : k % 2 ? 5.8
-                                : -5.8,
-                        k / 2 ? (k % 2 ? 5.8 : -5.8) : 0, 9),
-                1);
+    for (int side = -1; side <= 1; side += 2) {
+      stage_add(&s, thing_box(10, 10, 20), pose_of(5.8 * side, 0, 9), 1);
+      stage_add(&s, thing_box(10, 10, 20), pose_of(0, 5.8 * side, 9), 1);
+    }
     for (int k = 0; k < TALL; k++) {
       memset(&m[k], 0, sizeof m[k]);
       nsvcd_pose pose = pose_of(0, 0, 0.5 + k);
